@@ -2,6 +2,7 @@
 #pragma once
 
 #include <stdexcept>
+#include <string>
 
 namespace crumble {
 
@@ -17,7 +18,8 @@ struct FormatError : std::runtime_error {
 
 // SIGINT or SIGTERM ended the run, the state is saved: exit code 128 + signal.
 struct Interrupted : std::runtime_error {
-  explicit Interrupted(int signal_number) : std::runtime_error("stopped by a signal"), signal(signal_number) {}
+  explicit Interrupted(int signal_number, const std::string& what = "stopped by a signal")
+      : std::runtime_error(what), signal(signal_number) {}
   int signal;
 };
 

@@ -2,13 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cmath>
 
 namespace crumble {
 namespace {
 
+// The fewest digits that read back to the same double; powers of ten where zeros would have to be counted.
 std::string number_text(double value) {
-  std::string text = fmt::format("{}", value);
+  const double size = std::fabs(value);
+  const bool plain = size == 0 || (size >= 1e-3 && size < 1e6);
+  char digits[64];
+  const auto end = std::to_chars(digits, digits + sizeof digits, value,
+                                 plain ? std::chars_format::fixed : std::chars_format::scientific);
+  std::string text(digits, end.ptr);
   if (text.find_first_of(".en") == std::string::npos) text += ".0";  // TOML would take "10" for an integer
   return text;
 }

@@ -1,0 +1,173 @@
+#include "common/io/command_line.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <filesystem>
+
+namespace crumble {
+namespace {
+
+constexpr const char* exit_codes =
+    "Exit codes:\n"
+    "  0    done\n"
+    "  1    the run failed (not finite, no convergence, a limit reached)\n"
+    "  2    the scene or the command line is wrong\n"
+    "  3    a data file is not what its format says\n"
+    "  130  stopped by SIGINT (Ctrl-C), 143 by SIGTERM; the same command resumes where a checkpoint was left\n";
+
+bool declares_seed(const ParameterTable& table) {
+  for (const auto& section : table)
+    for (const auto& p : section.parameters)
+      if (section.name == "run" && p.name == "seed") return true;
+  return false;
+}
+
+std::string help_footer(const ProgramDescription& program) {
+  std::string out = "Examples:\n";
+  for (const auto& example : program.examples) out += fmt::format("  {}\n      {}\n", example.what, example.meaning);
+  out += fmt::format("  {} --print-defaults > scene.toml\n      every parameter with its meaning, unit and default\n\n",
+                     program.name);
+  return out + exit_codes + "\nResults go to files, answers to stdout, messages to stderr.";
+}
+
+// What CLI11 has read, still as text: its own conversions and ranges have messages that nobody can read.
+struct Raw {
+  std::vector<std::string> files, sets;
+  std::string output, report, seed, threads;
+  bool check = false, quiet = false, version = false, defaults = false;
+};
+
+void declare(CLI::App& app, Raw& raw, const ProgramDescription& program) {
+  std::string files = "SCENE.toml: the scene";
+  for (const auto& input : program.inputs) files += fmt::format("; {}: {}", input.what, input.meaning);
+  app.add_option("FILES", raw.files, files)->type_name("");
+  app.add_option("-o,--output", raw.output, "where the result goes; it appears only when it is complete")
+      ->type_name("FILE.h5");
+  app.add_option("--set", raw.sets, "override a value of the scene, as often as needed")
+      ->type_name("section.key=value")
+      ->allow_extra_args(false);
+  if (declares_seed(program.parameters))
+    app.add_option("--seed", raw.seed, "short for --set run.seed=N")->type_name("N");
+  app.add_option("--threads", raw.threads, "number of threads")->type_name("N");
+  app.add_option("--report", raw.report, "results, their errors and the cost of the run as JSON")
+      ->type_name("FILE.json");
+  app.add_flag("--check", raw.check, "read and build everything, run nothing");
+  app.add_flag("--quiet", raw.quiet, "no progress on stderr");
+  app.add_flag("--print-defaults", raw.defaults, "print a complete commented scene");
+  app.add_flag("--version", raw.version, "print version, git commit, compiler and libraries");
+}
+
+std::string usage(const ProgramDescription& program) {
+  std::string out = program.name + " SCENE.toml";
+  for (const auto& input : program.inputs) out += " " + input.what;
+  return out + " -o FILE.h5 [options]";
+}
+
+class UsageFormatter : public CLI::Formatter {
+ public:
+  explicit UsageFormatter(std::string usage) : usage_(std::move(usage)) { column_width(30); }
+  std::string make_usage(const CLI::App*, std::string) const override { return "Usage: " + usage_ + "\n"; }
+
+ private:
+  std::string usage_;
+};
+
+InputError misuse(const ProgramDescription& program, const std::string& wrong) {
+  return InputError(
+      fmt::format("{}: {}\nusage: {}\n{} --help explains", program.name, wrong, usage(program), program.name));
+}
+
+std::string unknown_option(const CLI::App& app, const std::string& word) {
+  std::vector<std::string> known;
+  for (const auto* option : app.get_options())
+    for (const auto& name : option->get_lnames()) known.push_back("--" + name);
+  const auto guess = nearest(word.substr(0, word.find('=')), known);
+  return "unknown option '" + word + "'" + (guess ? "; did you mean '" + *guess + "'?" : "");
+}
+
+std::int64_t whole_number(const ProgramDescription& program, const std::string& option, const std::string& text,
+                          std::int64_t low, std::int64_t high) {
+  std::int64_t value = 0;
+  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (problem != std::errc() || end != text.data() + text.size() || value < low || value > high)
+    throw misuse(program, fmt::format("{} {}: must be a whole number {} to {}", option, text, low, high));
+  return value;
+}
+
+void check_output(const ProgramDescription& program, const CommandLine& command, const std::string& option,
+                  const std::string& file) {
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  const fs::path folder = fs::path(file).parent_path();
+  if (!folder.empty() && !fs::is_directory(folder, ignored))
+    throw misuse(program, fmt::format("{} {}: there is no folder '{}'", option, file, folder.string()));
+  if (fs::is_directory(file, ignored)) throw misuse(program, fmt::format("{} {}: this is a folder", option, file));
+  std::vector<std::string> others = command.inputs;
+  others.push_back(command.scene);
+  for (const auto& other : others)
+    if (fs::equivalent(file, other, ignored))
+      throw misuse(program, fmt::format("{} {}: would overwrite the input '{}'", option, file, other));
+}
+
+void take_files(const ProgramDescription& program, const Raw& raw, CommandLine& command) {
+  std::string wanted = "SCENE.toml";
+  for (const auto& input : program.inputs) wanted += " " + input.what;
+  if (raw.files.size() != 1 + program.inputs.size())
+    throw misuse(program, fmt::format("{} file name{} given, wanted: {}", raw.files.size(),
+                                      raw.files.size() == 1 ? " is" : "s are", wanted));
+  command.scene = raw.files.front();
+  command.inputs.assign(raw.files.begin() + 1, raw.files.end());
+  command.output = raw.output;
+  command.report = raw.report;
+  if (command.output.empty() && !raw.check) throw misuse(program, "-o FILE.h5 is missing");
+  if (!command.output.empty()) check_output(program, command, "-o", command.output);
+  if (!command.report.empty()) check_output(program, command, "--report", command.report);
+  if (!command.report.empty() && command.report == command.output)
+    throw misuse(program, "-o and --report name the same file");
+}
+
+CommandLine interpret(const ProgramDescription& program, const Raw& raw) {
+  CommandLine command;
+  if (raw.version) command.answer = program.version;
+  if (raw.defaults) command.answer = default_scene(program.parameters);
+  if (command.answer) return command;
+  take_files(program, raw, command);
+  for (const auto& argument : raw.sets) command.overrides.push_back(parse_override(argument));
+  if (!raw.seed.empty()) {
+    whole_number(program, "--seed", raw.seed, 0, std::numeric_limits<std::int64_t>::max());
+    command.overrides.push_back({"run.seed", raw.seed, "--seed"});
+  }
+  if (!raw.threads.empty())
+    command.threads = static_cast<int>(whole_number(program, "--threads", raw.threads, 1, 1024));
+  command.check = raw.check;
+  command.quiet = raw.quiet;
+  return command;
+}
+
+}  // namespace
+
+CommandLine parse_command_line(const ProgramDescription& program, int argc, const char* const* argv) {
+  CLI::App app(program.purpose, program.name);
+  Raw raw;
+  declare(app, raw, program);
+  app.formatter(std::make_shared<UsageFormatter>(usage(program)));
+  app.footer(help_footer(program));
+  app.allow_extras();  // so that the message about an unknown option is ours
+  CommandLine command;
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    command.answer = app.help();
+    return command;
+  } catch (const CLI::ParseError& error) {
+    throw misuse(program, error.what());
+  }
+  if (!app.remaining().empty()) throw misuse(program, unknown_option(app, app.remaining().front()));
+  command = interpret(program, raw);
+  for (int i = 0; i < argc; ++i) command.typed += (i > 0 ? " " : "") + std::string(argv[i]);
+  return command;
+}
+
+}  // namespace crumble

@@ -1,0 +1,43 @@
+// The command line that all programs share: PROGRAM SCENE.toml [INPUT...] -o FILE.h5 [options].
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/io/parameters.hpp"
+
+namespace crumble {
+
+struct ProgramDescription {
+  struct Text {
+    std::string what, meaning;
+  };
+
+  std::string name;            // "dryer"
+  std::string purpose;         // a sentence or two, the first lines of --help
+  std::vector<Text> inputs;    // files wanted behind the scene: {"AGGLOMERATE.h5", "the agglomerate to load"}
+  std::vector<Text> examples;  // {"dryer hollow.toml -o hollow.h5", "dry one granule"}
+  std::string version;         // the whole answer to --version
+  ParameterTable parameters;   // --seed exists if run.seed is declared
+};
+
+struct CommandLine {
+  std::string scene;
+  std::vector<std::string> inputs;
+  std::string output;               // empty only with --check
+  std::vector<Override> overrides;  // --set in the order given, then --seed
+  std::string report;               // empty: none wanted
+  int threads = 0;                  // 0: as many as OpenMP takes by itself
+  bool check = false, quiet = false;
+  std::string typed;  // the command as given, for the provenance
+
+  // What --help, --version or --print-defaults asked for: print it to stdout and end with 0.
+  std::optional<std::string> answer;
+};
+
+// Throws InputError on everything that cannot be meant, also on an output folder that is not there and on an output
+// that would overwrite an input.
+CommandLine parse_command_line(const ProgramDescription& program, int argc, const char* const* argv);
+
+}  // namespace crumble

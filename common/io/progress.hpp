@@ -1,0 +1,31 @@
+// How far a run has come, in words; who prints them is the program's affair (program.hpp).
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <string>
+
+namespace crumble {
+
+// "90 s" as "1 min 30 s"; two units at most.
+std::string duration_text(double seconds);
+
+// Knows the last few reports, and takes speed and time left from them: a run is rarely equally fast all the way.
+class Progress {
+ public:
+  explicit Progress(std::string label) : label_(std::move(label)) {}
+
+  // "hollow-1:  42 %, 1.3e+04 steps/s, 12 s left, R = 150 nm". Times in s on any clock that does not go back; the first
+  // call sets the start.
+  std::string line(double now, double fraction, std::int64_t steps, const std::string& status);
+
+ private:
+  struct Mark {
+    double time, fraction;
+    std::int64_t steps;
+  };
+  std::string label_;
+  std::deque<Mark> marks_;
+};
+
+}  // namespace crumble

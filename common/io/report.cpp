@@ -1,0 +1,89 @@
+#include "common/io/report.hpp"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+namespace crumble {
+namespace {
+
+void require_finite(const std::string& name, double x) {
+  if (!std::isfinite(x)) throw std::runtime_error(fmt::format("report: '{}' is {}, not a finite number", name, x));
+}
+
+double seconds(const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); }
+
+}  // namespace
+
+Report::Report(std::string program, std::string version, std::string scene, std::optional<std::int64_t> seed)
+    : program_(std::move(program)),
+      version_(std::move(version)),
+      scene_(std::move(scene)),
+      seed_(seed),
+      begin_(std::chrono::steady_clock::now()) {}
+
+void Report::result(const std::string& name, Value value) {
+  if (const auto* x = std::get_if<double>(&value)) require_finite(name, *x);
+  if (const auto* list = std::get_if<std::vector<double>>(&value))
+    for (const double x : *list) require_finite(name, x);
+  results_.emplace_back(name, std::move(value));
+}
+
+void Report::error(const std::string& name, std::optional<double> value, const std::string& how) {
+  if (value) require_finite(name, *value);
+  errors_.push_back({name, value, how});
+}
+
+std::string Report::json() const {
+  rusage used{};
+  getrusage(RUSAGE_SELF, &used);
+  nlohmann::ordered_json out;
+  out["program"] = program_;
+  out["version"] = version_;
+  out["scene"] = scene_;
+  if (seed_)
+    out["seed"] = *seed_;
+  else
+    out["seed"] = nullptr;
+  out["wall_s"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  out["cpu_s"] = seconds(used.ru_utime) + seconds(used.ru_stime);
+  out["peak_rss_bytes"] = std::int64_t{used.ru_maxrss} * 1024;  // Linux counts in KiB
+  out["steps"] = steps;
+  out["results"] = nlohmann::ordered_json::object();
+  for (const auto& [name, value] : results_)
+    std::visit([&, &key = name](const auto& x) { out["results"][key] = x; }, value);
+  out["errors"] = nlohmann::ordered_json::object();
+  for (const auto& e : errors_) {
+    auto& entry = out["errors"][e.name];
+    if (e.value)
+      entry["value"] = *e.value;
+    else
+      entry["value"] = nullptr;
+    entry["how"] = e.how;
+  }
+  out["left_out"] = left_out;
+  return out.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+void Report::write(const std::string& file) const {
+  const std::string temporary = file + ".tmp";
+  const std::string text = json();
+  {
+    std::ofstream out(temporary, std::ios::binary);
+    out << text;
+    out.flush();
+    if (!out) {
+      std::remove(temporary.c_str());
+      throw std::runtime_error("cannot write the report " + file);
+    }
+  }
+  std::filesystem::rename(temporary, file);
+}
+
+}  // namespace crumble

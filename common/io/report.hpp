@@ -1,0 +1,47 @@
+// What a run has found, with its error and its cost, as JSON for tables and tests. One shape for every program.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace crumble {
+
+// Begin it where the work begins: wall time counts from there, CPU time and peak memory are the whole process's.
+class Report {
+ public:
+  using Value = std::variant<std::int64_t, double, std::string, std::vector<double>>;
+
+  Report(std::string program, std::string version, std::string scene, std::optional<std::int64_t> seed);
+
+  std::int64_t steps = 0;
+  std::vector<std::string> left_out;  // what the scene made unnecessary, and why that is allowed
+
+  // Names carry the unit where there is one ("d_c_nm"). A value that is not finite throws.
+  void result(const std::string& name, Value value);
+  // `value` is the error in the unit of the name ("d_c_relative"); nothing if it was not estimated. `how` says in words
+  // how it was estimated, or why not.
+  void error(const std::string& name, std::optional<double> value, const std::string& how);
+
+  std::string json() const;
+  // Under a temporary name first, then renamed: a half-written report never looks finished.
+  void write(const std::string& file) const;
+
+ private:
+  struct Error {
+    std::string name;
+    std::optional<double> value;
+    std::string how;
+  };
+  std::string program_, version_, scene_;
+  std::optional<std::int64_t> seed_;
+  std::chrono::steady_clock::time_point begin_;
+  std::vector<std::pair<std::string, Value>> results_;
+  std::vector<Error> errors_;
+};
+
+}  // namespace crumble
