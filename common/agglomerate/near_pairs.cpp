@@ -6,6 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include "common/contact/material.hpp"
+
 namespace crumble {
 namespace {
 

@@ -14,12 +14,9 @@ struct NearPair {
   double gap = 0;             // surface to surface, m; negative where the spheres overlap
 };
 
-// The length that scales a pair: a for equal spheres, 2 R* = 2 a_i a_j / (a_i + a_j) otherwise (m). It takes the place
-// of a in the contact laws of unequal spheres, so gaps and tolerances are measured in it too.
-inline double pair_radius(double a_i, double a_j) { return 2 * a_i * a_j / (a_i + a_j); }
-
-// All pairs with gap < fraction * pair_radius, sorted by (i, j). Lengths in m, fraction > -1.
-// A k-d tree is asked around every sphere for those not larger than itself: O(N log N), also for very unequal radii.
+// All pairs with gap < fraction * pair_radius (a for equal spheres, 2 R* otherwise, as in the contact laws), sorted by
+// (i, j). Lengths in m, fraction > -1. A k-d tree is asked around every sphere for those not larger than itself: O(N
+// log N), also for very unequal radii.
 std::vector<NearPair> near_pairs(std::span<const Vector3> position, std::span<const double> radius, double fraction);
 
 }  // namespace crumble

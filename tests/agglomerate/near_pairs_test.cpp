@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "common/contact/material.hpp"
 #include "tests/agglomerate/shapes.hpp"
 
 namespace crumble {
