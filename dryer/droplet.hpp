@@ -1,0 +1,54 @@
+// The evaporating droplet: its radius in time and the capillary force at its surface.
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+namespace crumble {
+
+struct Droplet {
+  double initial_radius = 0;   // R0, m
+  double lifetime = 0;         // tau, s
+  double surface_tension = 0;  // sigma, N/m
+
+  // R(t) = sqrt(R0^2 - k t), k = R0^2/tau; 0 after the lifetime.                          (paper, Eq. 7)
+  double radius(double time) const {
+    const double left = 1 - time / lifetime;
+    return left > 0 ? initial_radius * std::sqrt(left) : 0;
+  }
+
+  // Instant at which the front is at R, s: the inverse of radius().
+  double time_at(double R) const {
+    const double x = R / initial_radius;
+    return lifetime * (1 - x) * (1 + x);
+  }
+
+  // Speed of the receding front, v = -dR/dt = k/(2 R), m/s.                               (paper, Eq. 24)
+  double front_speed(double R) const { return initial_radius * initial_radius / (2 * lifetime * R); }
+};
+
+// Force on a particle that the surface cuts, towards the centre of the droplet:
+//   F_c = 2 pi sigma sqrt(a^2 - (r - R)^2)  for |r - R| <= a, else 0                      (paper, Eq. 8)
+// The equation is valid only while the surface cuts the particle; inside (r < R - a) and outside (r > R + a) there is
+// none. offset = r - R, m; result N >= 0.
+inline double capillary_force(double surface_tension, double a, double offset) {
+  const double squared = (a - offset) * (a + offset);
+  return squared > 0 ? 2 * std::numbers::pi * surface_tension * std::sqrt(squared) : 0;
+}
+
+// dF_c/d(offset), N/m: positive (restoring) on the inner half, negative on the outer, infinite at first touch.
+inline double capillary_slope(double surface_tension, double a, double offset) {
+  const double squared = (a - offset) * (a + offset);
+  return squared > 0 ? -2 * std::numbers::pi * surface_tension * offset / std::sqrt(squared) : 0;
+}
+
+// Work against F_c from the inside (offset <= -a) outwards, J: the integral of Eq. 8.
+inline double capillary_energy(double surface_tension, double a, double offset) {
+  if (offset <= -a) return 0;
+  const double area = offset >= a ? std::numbers::pi * a * a / 2
+                                  : 0.5 * (offset * std::sqrt((a - offset) * (a + offset)) +
+                                           a * a * (std::asin(offset / a) + std::numbers::pi / 2));
+  return 2 * std::numbers::pi * surface_tension * area;
+}
+
+}  // namespace crumble

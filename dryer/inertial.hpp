@@ -1,0 +1,40 @@
+// The paper's own integrator: Newton's equations with inertia, fixed step, second order. Slow; the reference for all
+// else.
+#pragma once
+
+#include "dryer/drying.hpp"
+
+namespace crumble {
+
+// One step is a symmetric splitting of Eq. 1: half a kick, a drift, half a kick. In a kick the force is constant and
+// the drag exact: v <- v e + (F/zeta)(1 - e), e = exp(-zeta dt/(2 m)); rotations likewise with zeta_r and I = (2/5) m
+// a^2. Bond histories are advanced over the drift. Second order in dt for smooth forces (test), stable for dt <
+// 2/omega_max.
+class Inertial {
+ public:
+  Inertial(const DryingModel& model, Agglomerate& state, double step);
+
+  void step();
+  double step_size() const { return step_; }
+
+  // 0.2 sqrt(m/k), k the stiffest spring of the smallest particle: a fifth of the period of a bonded pair / 2 pi.
+  static double recommended_step(const DryingModel& model, const Particles& particles);
+
+ private:
+  void kick();
+  void drift();
+  void evaluate_forces();
+
+  const DryingModel& model_;
+  Agglomerate& state_;
+  double step_;
+  BondLaws laws_;
+  OpenPairs open_;
+  Activity activity_;
+  struct Mobility {
+    double kept, gained, kept_rotation, gained_rotation;
+  };
+  std::vector<Mobility> kicks_;  // per particle: factors of half a kick
+};
+
+}  // namespace crumble
