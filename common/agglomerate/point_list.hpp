@@ -1,0 +1,37 @@
+// Spheres read from a text file: CSV, XYZ or extended XYZ.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/agglomerate/agglomerate.hpp"
+
+namespace crumble {
+
+// What is wrong with the text, beginning with file and line: "points.csv:14: y: expected a number, found '1,5'".
+struct PointListError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+struct PointList {
+  std::string file;               // as messages call it
+  std::vector<Vector3> position;  // in the file's unit
+  std::vector<double> radius;     // in the file's unit; empty if the file has none
+  std::vector<int> line;          // where each sphere stands, from 1
+  int frames = 1;                 // of an XYZ file with several the last is taken
+};
+
+// Comma-separated values. The first line that is not empty and not a comment (#) is the header: x, y, z and, if wanted,
+// radius, in any order and case.
+PointList parse_csv(std::string_view text, const std::string& file);
+
+// Number of spheres, a comment line, then for each sphere a label and x y z. If the comment line is that of extended
+// XYZ (Properties=name:type:columns:...), the columns pos and radius are found by it and others are passed over.
+PointList parse_xyz(std::string_view text, const std::string& file);
+
+// By the ending of the name: .csv, .xyz or .extxyz.
+PointList read_points(const std::string& file);
+
+}  // namespace crumble
