@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <new>
 
@@ -27,7 +28,9 @@ std::string cut_to_width(std::string line, std::FILE* terminal) {
   return line;
 }
 
-constexpr std::chrono::milliseconds line_interval{5000}, live_interval{500};
+// Seconds from one report to the next: a live line changes twice a second; a log gets a line every 2 s at first and
+// every minute in the end, so that neither a short run is silent nor a long one fills the disk.
+double interval(bool live, double elapsed) { return live ? 0.5 : std::clamp(elapsed / 10, 2.0, 60.0); }
 
 }  // namespace
 
@@ -73,9 +76,9 @@ void ProgressPrinter::update(double fraction, std::int64_t steps, const std::fun
   const auto now = std::chrono::steady_clock::now();
   if (now < due_) return;
   const bool first = due_ == begin_;
-  due_ = now + (live_ ? live_interval : line_interval);
-  const std::string line =
-      progress_.line(std::chrono::duration<double>(now - begin_).count(), fraction, steps, status());
+  const double elapsed = std::chrono::duration<double>(now - begin_).count();
+  due_ = now + std::chrono::milliseconds(std::lround(1000 * interval(live_, elapsed)));
+  const std::string line = progress_.line(elapsed, fraction, steps, status());
   if (live_) {
     clear();
     std::fputs(cut_to_width(line, out_).c_str(), out_);

@@ -1,0 +1,35 @@
+#!/bin/bash
+# Installs what is missing of packages.txt: as root, or with sudo where that asks for no password. Otherwise prints the
+# command and fails. Says nothing when all is there.
+set -euo pipefail
+export PATH="$PATH:/usr/local/sbin:/usr/sbin:/sbin" LC_ALL=C.UTF-8  # dpkg needs ldconfig, which lives in sbin
+
+list="$(dirname "$0")/packages.txt"
+mapfile -t wanted < <(sed 's/#.*//' "$list" | tr -s ' \t' '\n' | sed '/^$/d')
+
+if ! command -v dpkg-query > /dev/null; then
+  echo "This is not Debian. Crumble needs what Debian 12 calls: ${wanted[*]}. Going on in the hope that it is there." >&2
+  exit 0
+fi
+
+installed=" $(dpkg-query -W -f '${Package}=${db:Status-Status}\n' "${wanted[@]}" 2> /dev/null |
+  sed -n 's/=installed$//p' | tr '\n' ' ' || true)"
+missing=()
+for package in "${wanted[@]}"; do
+  [[ $installed == *" $package "* ]] || missing+=("$package")
+done
+((${#missing[@]})) || exit 0
+
+if [[ $(id -u) == 0 ]]; then
+  root=(env)
+elif command -v sudo > /dev/null && sudo -n true 2> /dev/null; then
+  root=(sudo -n env)
+else
+  echo "Debian packages are missing and there is no right to install them. Run this, then make again:" >&2
+  echo "  sudo apt-get update && sudo apt-get install --no-install-recommends -y ${missing[*]}" >&2
+  exit 1
+fi
+echo "Installing Debian packages: ${missing[*]}" >&2
+apt=("${root[@]}" DEBIAN_FRONTEND=noninteractive apt-get -q -o DPkg::Lock::Timeout=120)
+"${apt[@]}" update
+"${apt[@]}" install --no-install-recommends -y "${missing[@]}"

@@ -1,0 +1,152 @@
+import os
+import pathlib
+import re
+import time
+import unittest
+
+from sandbox import ROOT, Sandbox
+
+
+class MainJob(Sandbox):
+    def setUp(self):
+        super().setUp()
+        self.results = self.root / "pipeline" / "results"
+
+    def test_dries_five_seeds_checks_them_and_prints_the_table(self):
+        done = self.make()
+        self.assertEqual(done.returncode, 0, done.stderr)
+        seeds = sorted(re.search(r"--seed (\d+)", call).group(1) for call in self.called("dryer"))
+        self.assertEqual(seeds, ["1", "2", "3", "4", "5"])
+        (check,) = self.called("agglomerate")
+        self.assertEqual(check, "agglomerate check " + " ".join(f"results/hollow-{s}.h5" for s in seeds))
+        self.assertRegex(done.stdout, r"(?m)^ *mean +160\.0 +0\.300 +173 +3\.00")
+        self.assertRegex(done.stdout, r"(?m)^ *paper +160 +0\.28 +183-185 +3\.18$")
+
+    def test_again_does_nothing_but_print_the_table(self):
+        first = self.make()
+        self.forget()
+        again = self.make()
+        self.assertEqual(again.returncode, 0, again.stderr)
+        self.assertEqual(self.called("dryer") + self.called("agglomerate"), [])
+        self.assertIn(first.stdout[first.stdout.index(" seed"):].split("make:")[0], again.stdout)
+
+    def test_a_changed_scene_or_program_makes_every_result_out_of_date(self):
+        self.make()
+        for changed in (self.root / "pipeline" / "scenes" / "hollow.toml", self.root / "build/release/bin/dryer"):
+            self.forget()
+            later = time.time() + 2
+            os.utime(changed, (later, later))
+            self.make()
+            self.assertEqual(len(self.called("dryer")), 5, changed)
+            os.utime(changed, (1e9, 1e9))
+            for result in self.results.iterdir():
+                os.utime(result)
+
+    def test_one_missing_file_is_made_again_and_no_other(self):
+        self.make()
+        for missing in ("hollow-3.h5", "hollow-2.json"):
+            self.forget()
+            (self.results / missing).unlink()
+            self.assertEqual(self.make().returncode, 0)
+            self.assertEqual(len(self.called("dryer")), 1, missing)
+
+    def test_a_failed_stage_leaves_nothing_that_looks_finished(self):
+        done = self.make("-k", BREAK="2")
+        self.assertNotEqual(done.returncode, 0)
+        left = {path.name for path in self.results.iterdir()}
+        self.assertFalse({"hollow-2.h5", "hollow-2.json", "hollow.txt"} & left, left)
+        self.assertIn("hollow-1.h5", left)
+        self.forget()
+        self.assertEqual(self.make().returncode, 0)
+        self.assertEqual(len(self.called("dryer")), 1)
+
+    def test_an_invalid_file_leaves_no_table(self):
+        self.assertNotEqual(self.make(CHECK_CODE="1").returncode, 0)
+        self.assertFalse((self.results / "hollow.txt").exists())
+
+    def test_runs_go_side_by_side_and_one_by_one_if_asked(self):
+        # Each run waits until as many have begun as are meant to go side by side.
+        waiting = (self.programs / "dryer").read_text().replace("scene=$1\n", """scene=$1
+for ((i = 0; i < 200; ++i)); do
+  (($(grep -c ^dryer "$LOG") < AWAIT)) || break
+  sleep 0.05
+done
+""") + 'echo "end" >> "$LOG"\n'
+        self.stand_in("dryer", waiting, self.programs)
+
+        def most_at_once(wanted, *arguments):
+            self.forget()
+            self.make("-B", "results/hollow.txt", *arguments, AWAIT=str(wanted))
+            running, most = 0, 0
+            for line in self.log.read_text().splitlines():
+                running += line.startswith("dryer") - (line == "end")
+                most = max(most, running)
+            return most
+
+        cores = min(5, len(os.sched_getaffinity(0)))  # as nproc counts
+        self.assertEqual(most_at_once(1, "-j1"), 1)
+        self.assertEqual(most_at_once(5, "-j5"), 5)
+        self.assertEqual(most_at_once(cores), cores)
+
+
+class Stages(Sandbox):
+    SCENE = "pipeline/scenes/hollow.toml"
+
+    def test_dry_names_its_output_after_scene_and_seed(self):
+        done = self.make("dry", f"SCENE={self.SCENE}", "SEED=7")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(self.called("dryer"), [f"dryer {self.SCENE} -o pipeline/results/hollow-7.h5 "
+                                                "--report pipeline/results/hollow-7.json --seed 7"])
+        self.assertTrue((self.root / "pipeline/results/hollow-7.h5").exists())
+
+    def test_dry_takes_names_with_blanks_and_its_own_folder(self):
+        scene = self.root / "my scene.toml"
+        scene.write_text("x = 1\n")
+        self.assertEqual(self.make("dry", f"SCENE={scene}", "OUT=new folder/my file.h5").returncode, 0)
+        self.assertTrue((self.root / "new folder" / "my file.h5").exists())
+
+    def test_dry_does_only_what_is_out_of_date(self):
+        self.make("dry", f"SCENE={self.SCENE}")
+        self.forget()
+        done = self.make("dry", f"SCENE={self.SCENE}")
+        self.assertIn("pipeline/results/hollow.h5 is up to date", done.stdout)
+        self.assertEqual(self.called("dryer"), [])
+        later = time.time() + 2
+        os.utime(self.root / self.SCENE, (later, later))
+        self.make("dry", f"SCENE={self.SCENE}")
+        self.assertEqual(len(self.called("dryer")), 1)
+
+    def test_dry_without_or_with_a_missing_scene_says_so(self):
+        self.assertIn("which scene?", self.make("dry").stderr)
+        self.assertNotEqual(self.make("dry").returncode, 0)
+        self.assertIn("absent.toml: no such file", self.make("dry", "SCENE=absent.toml").stderr)
+
+    def test_check_hands_on_the_verdict(self):
+        self.assertEqual(self.make("check", "FILE=a b.h5").returncode, 0)
+        self.assertEqual(self.called("agglomerate"), ["agglomerate check a b.h5"])
+        self.assertNotEqual(self.make("check", "FILE=a.h5", CHECK_CODE="1").returncode, 0)
+        self.assertIn("which file?", self.make("check").stderr)
+
+    def test_test_builds_everything_and_ends_with_the_summary_of_ctest(self):
+        done = self.make("test")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertFalse(any("--target" in call for call in self.called("cmake")))
+        self.assertEqual(len(self.called("ctest")), 1)
+        self.assertIn("100% tests passed", done.stdout.splitlines()[-2:])
+
+    def test_a_failing_test_fails_the_target(self):
+        self.stand_in("ctest", "#!/bin/bash\nexit 8\n")
+        self.assertNotEqual(self.make("test").returncode, 0)
+
+    def test_help_names_every_target(self):
+        text = (ROOT / "pipeline" / "Makefile").read_text()
+        phony = set(re.search(r"^\.PHONY: (.*)$", text, re.M).group(1).split()) - {"FORCE"}
+        listed = {line.split()[0] for line in self.make("help").stdout.splitlines() if re.match(r"  [a-z]+  ", line)}
+        self.assertEqual(listed, phony)
+
+    def test_ci_runs_the_test_target(self):
+        self.assertIn("pipeline\" test", (pathlib.Path(ROOT) / ".ci" / "run").read_text())
+
+
+if __name__ == "__main__":
+    unittest.main()
