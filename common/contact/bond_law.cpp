@@ -10,7 +10,7 @@ BondLaw::BondLaw(const ContactChoice& choice, const Material& material, double r
     : kind(choice.normal), jkr(material, pair_radius(radius_i, radius_j)) {
   const double a = pair_radius(radius_i, radius_j);
   k_t = twisting_stiffness(material, a);
-  k_r = rolling_stiffness(material, a);
+  k_r = choice.rolling_stiffness_factor * rolling_stiffness(material, a);
   M_t_crit = choice.twisting_limit_factor * twisting_limit(material, a);
   M_r_crit = choice.rolling_limit_factor * rolling_limit(material, a, jkr.zero_load_radius);
   F_s_crit = choice.sliding_limit_factor * crumble::sliding_limit(material, jkr.zero_load_radius);

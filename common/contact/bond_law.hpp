@@ -18,6 +18,7 @@ struct ContactChoice {
   double sliding_limit_factor = 1;
   double twisting_limit_factor = 1;
   double rolling_limit_factor = 1;
+  double rolling_stiffness_factor = 1;  // of Eq. 20; the critical torque of Eq. 21 stays
 };
 
 struct BondLaw {
