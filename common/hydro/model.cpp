@@ -1,11 +1,11 @@
 #include "common/hydro/model.hpp"
 
-#include <stdexcept>
+#include "common/hydro/multipole.hpp"
 
 namespace crumble {
 
 MobilityMatrix mobility_matrix(const Spheres& spheres, const HydroModel& model) {
-  if (model.rung == Rung::multipole) throw std::invalid_argument("multipole: not yet");
+  if (model.rung == Rung::multipole) return multipole_mobility(spheres, model.order);
   return far_field_mobility(spheres);
 }
 
