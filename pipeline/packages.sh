@@ -5,7 +5,7 @@ set -euo pipefail
 export PATH="$PATH:/usr/local/sbin:/usr/sbin:/sbin" LC_ALL=C.UTF-8  # dpkg needs ldconfig, which lives in sbin
 
 list="$(dirname "$0")/packages.txt"
-mapfile -t wanted < <(sed 's/#.*//' "$list" | tr -s ' \t' '\n' | sed '/^$/d')
+read -r -d '' -a wanted <<< "$(sed 's/#.*//' "$list")" || true
 
 if ! command -v dpkg-query > /dev/null; then
   echo "This is not Debian. Crumble needs what Debian 12 calls: ${wanted[*]}. Going on in the hope that it is there." >&2
