@@ -36,7 +36,7 @@ std::string help_footer(const ProgramDescription& program) {
 struct Raw {
   std::vector<std::string> files, sets;
   std::string output, report, seed, threads;
-  bool check = false, quiet = false, version = false, defaults = false;
+  bool check = false, quiet = false, version = false, defaults = false, reference = false;
 };
 
 void declare(CLI::App& app, Raw& raw, const ProgramDescription& program) {
@@ -56,6 +56,7 @@ void declare(CLI::App& app, Raw& raw, const ProgramDescription& program) {
   app.add_flag("--check", raw.check, "read and build everything, run nothing");
   app.add_flag("--quiet", raw.quiet, "no progress on stderr");
   app.add_flag("--print-defaults", raw.defaults, "print a complete commented scene");
+  app.add_flag("--print-reference", raw.reference, "print the manual's page of all parameters (Markdown)");
   app.add_flag("--version", raw.version, "print version, git commit, compiler and libraries");
 }
 
@@ -132,6 +133,7 @@ CommandLine interpret(const ProgramDescription& program, const Raw& raw) {
   CommandLine command;
   if (raw.version) command.answer = program.version;
   if (raw.defaults) command.answer = default_scene(program.parameters);
+  if (raw.reference) command.answer = reference_page(program);
   if (command.answer) return command;
   take_files(program, raw, command);
   for (const auto& argument : raw.sets) command.overrides.push_back(parse_override(argument));
@@ -147,6 +149,13 @@ CommandLine interpret(const ProgramDescription& program, const Raw& raw) {
 }
 
 }  // namespace
+
+std::string reference_page(const ProgramDescription& program) {
+  return fmt::format(
+      "# Parameters of `{0}`\n\nWritten by `{0} --print-reference`. A value is in the unit given here and in no "
+      "other.\n\n{1}",
+      program.name, parameter_page(program.parameters));
+}
 
 CommandLine parse_command_line(const ProgramDescription& program, int argc, const char* const* argv) {
   CLI::App app(program.purpose, program.name);
@@ -165,9 +174,7 @@ CommandLine parse_command_line(const ProgramDescription& program, int argc, cons
     throw misuse(program, error.what());
   }
   if (!app.remaining().empty()) throw misuse(program, unknown_option(app, app.remaining().front()));
-  command = interpret(program, raw);
-  for (int i = 0; i < argc; ++i) command.typed += (i > 0 ? " " : "") + std::string(argv[i]);
-  return command;
+  return interpret(program, raw);
 }
 
 }  // namespace crumble

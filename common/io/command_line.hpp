@@ -30,14 +30,16 @@ struct CommandLine {
   std::string report;               // empty: none wanted
   int threads = 0;                  // 0: as many as OpenMP takes by itself
   bool check = false, quiet = false;
-  std::string typed;  // the command as given, for the provenance
 
-  // What --help, --version or --print-defaults asked for: print it to stdout and end with 0.
+  // What --help, --version, --print-defaults or --print-reference asked for: print it to stdout and end with 0.
   std::optional<std::string> answer;
 };
 
 // Throws InputError on everything that cannot be meant, also on an output folder that is not there and on an output
 // that would overwrite an input.
 CommandLine parse_command_line(const ProgramDescription& program, int argc, const char* const* argv);
+
+// The manual's page of all parameters, in Markdown. A test of each program compares it with the page in the tree.
+std::string reference_page(const ProgramDescription& program);
 
 }  // namespace crumble
