@@ -1,8 +1,10 @@
 // One implicit step of overdamped motion: where drag, capillary force and contacts balance at the end of the step.
 #pragma once
 
+#include "common/agglomerate/agglomerate.hpp"
 #include "dryer/block_cholesky.hpp"
-#include "dryer/drying.hpp"
+#include "dryer/bond_laws.hpp"
+#include "dryer/model.hpp"
 
 namespace crumble {
 

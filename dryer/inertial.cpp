@@ -1,7 +1,10 @@
 #include "dryer/inertial.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "common/agglomerate/bond.hpp"
 #include "dryer/drag.hpp"
@@ -9,12 +12,7 @@
 namespace crumble {
 
 Inertial::Inertial(const DryingModel& model, Agglomerate& state, double step)
-    : model_(model),
-      state_(state),
-      step_(step),
-      laws_(model.contact, model.material, state.particles.radius),
-      open_(0.1 * *std::min_element(state.particles.radius.begin(), state.particles.radius.end())),
-      activity_(state.particles, state.state) {
+    : Integrator(model, state, 0.1), step_(step) {
   Frame& f = state.state;
   for (auto* field : {&f.velocity, &f.angular_velocity, &f.force, &f.torque})
     if (field->size() != state.particles.size()) field->assign(state.particles.size(), Vector3::Zero());
@@ -25,8 +23,6 @@ Inertial::Inertial(const DryingModel& model, Agglomerate& state, double step)
     const double e = -0.5 * zeta * step / m, e_r = -0.5 * zeta_r * step / (0.4 * m * a * a);
     kicks_.push_back({std::exp(e), -std::expm1(e) / zeta, std::exp(e_r), -std::expm1(e_r) / zeta_r});
   }
-  activity_.front_at(model.droplet.radius(f.time));
-  open_.update(f.position, state.particles.radius, f.contacts);
   evaluate_forces();
 }
 
@@ -37,18 +33,32 @@ double Inertial::recommended_step(const DryingModel& model, const Particles& par
   return 0.2 * std::sqrt(particles.mass[smallest] / std::max(law.normal_stiffness(), law.k_s));
 }
 
-void Inertial::step() {
+void Inertial::step(double latest_time) {
   kick();
   drift();
+  state_.state.time = std::min(state_.state.time + step_, latest_time);
+  ++state_.state.step;
   evaluate_forces();
   kick();
-  ++state_.state.step;
+  ++statistics_.steps;
+  statistics_.particle_steps += static_cast<std::int64_t>(activity_.active().size());
+  if (statistics_.steps % 1000 == 0) check_finite();
+}
+
+void Inertial::check_finite() const {
+  const Frame& f = state_.state;
+  for (const std::int32_t p : activity_.active())
+    if (!f.velocity[p].allFinite() || !f.position[p].allFinite())
+      throw std::domain_error(
+          fmt::format("step {} at t = {:.6g} s: particle {} is not finite; integrator.step = {:.3g} s "
+                      "is too large (stable: about {:.3g} s)",
+                      f.step, f.time, p, step_, recommended_step(model_, state_.particles)));
 }
 
 void Inertial::kick() {
   Frame& f = state_.state;
   for (const std::int32_t p : activity_.active()) {
-    const Mobility& k = kicks_[p];
+    const HalfKick& k = kicks_[p];
     f.velocity[p] = k.kept * f.velocity[p] + k.gained * f.force[p];
     f.angular_velocity[p] = k.kept_rotation * f.angular_velocity[p] + k.gained_rotation * f.torque[p];
   }
@@ -56,44 +66,8 @@ void Inertial::kick() {
 
 void Inertial::drift() {
   Frame& f = state_.state;
-  const auto& radius = state_.particles.radius;
   for (const std::int32_t p : activity_.active()) f.position[p] += step_ * f.velocity[p];
-  f.time += step_;
-  open_.update(f.position, radius, f.contacts);
-
-  bool lost = false;
-  for (Contact& bond : f.contacts) {
-    const BondLaw& law = laws_(bond.i, bond.j);
-    advance(bond, law,
-            {f.position[bond.j] - f.position[bond.i], step_ * (f.velocity[bond.j] - f.velocity[bond.i]),
-             step_ * f.angular_velocity[bond.i], step_ * f.angular_velocity[bond.j], radius[bond.i], radius[bond.j]});
-    if (bond.gap > law.lost_gap()) {
-      open_.open({bond.i, bond.j});
-      bond.born = -1;
-      lost = true;
-    }
-  }
-  if (lost) std::erase_if(f.contacts, [](const Contact& bond) { return bond.born < 0; });
-
-  std::vector<Pair> made;
-  for (const Pair& pair : open_.pairs()) {
-    const double reach = radius[pair.i] + radius[pair.j];
-    if ((f.position[pair.j] - f.position[pair.i]).squaredNorm() <= reach * reach &&
-        (activity_.is_active(pair.i) || activity_.is_active(pair.j)))
-      made.push_back(pair);
-  }
-  for (const Pair& pair : made) {
-    open_.close(pair);
-    activity_.wake(pair.i);
-    activity_.wake(pair.j);
-    Contact bond = make_bond(laws_(pair.i, pair.j), pair.i, pair.j, f.position[pair.j] - f.position[pair.i],
-                             radius[pair.i], radius[pair.j], f.step);
-    const auto place =
-        std::lower_bound(f.contacts.begin(), f.contacts.end(), pair, [](const Contact& c, const Pair& q) {
-          return Pair{c.i, c.j} < q;
-        });
-    f.contacts.insert(place, bond);
-  }
+  advance_bonds([&](std::int32_t p) { return Motion{step_ * f.velocity[p], step_ * f.angular_velocity[p]}; });
 }
 
 void Inertial::evaluate_forces() {

@@ -2,7 +2,7 @@
 // else.
 #pragma once
 
-#include "dryer/drying.hpp"
+#include "dryer/integrator.hpp"
 
 namespace crumble {
 
@@ -10,12 +10,12 @@ namespace crumble {
 // the drag exact: v <- v e + (F/zeta)(1 - e), e = exp(-zeta dt/(2 m)); rotations likewise with zeta_r and I = (2/5) m
 // a^2. Bond histories are advanced over the drift. Second order in dt for smooth forces (test), stable for dt <
 // 2/omega_max.
-class Inertial {
+class Inertial : public Integrator {
  public:
   Inertial(const DryingModel& model, Agglomerate& state, double step);
 
-  void step();
-  double step_size() const { return step_; }
+  // Throws std::domain_error naming the particle if a velocity is no longer finite (step too large).
+  void step(double latest_time) override;
 
   // 0.2 sqrt(m/k), k the stiffest spring of the smallest particle: a fifth of the period of a bonded pair / 2 pi.
   static double recommended_step(const DryingModel& model, const Particles& particles);
@@ -24,17 +24,13 @@ class Inertial {
   void kick();
   void drift();
   void evaluate_forces();
+  void check_finite() const;
 
-  const DryingModel& model_;
-  Agglomerate& state_;
   double step_;
-  BondLaws laws_;
-  OpenPairs open_;
-  Activity activity_;
-  struct Mobility {
+  struct HalfKick {
     double kept, gained, kept_rotation, gained_rotation;
   };
-  std::vector<Mobility> kicks_;  // per particle: factors of half a kick
+  std::vector<HalfKick> kicks_;  // per particle
 };
 
 }  // namespace crumble

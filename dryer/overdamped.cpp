@@ -6,36 +6,39 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "common/agglomerate/bond.hpp"
-
 namespace crumble {
 
-namespace {
-constexpr double skin_over_a = 0.2;
-}
-
 Overdamped::Overdamped(const DryingModel& model, Agglomerate& state, const OverdampedControl& control)
-    : model_(model),
-      state_(state),
+    : Integrator(model, state, 0.2),
       control_(control),
-      laws_(model.contact, model.material, state.particles.radius),
-      open_(skin_over_a * *std::min_element(state.particles.radius.begin(), state.particles.radius.end())),
-      activity_(state.particles, state.state),
       implicit_(model, state, laws_),
       rate_(state.particles.size(), Vector6::Zero()) {
-  open_.update(state_.state.position, state_.particles.radius, state_.state.contacts);
-  activity_.front_at(model_.droplet.radius(state_.state.time));
+  for (auto* field : {&state.state.velocity, &state.state.angular_velocity})
+    if (field->size() != state.particles.size()) field->assign(state.particles.size(), Vector3::Zero());
+}
+
+Integrator::Memory Overdamped::memory() const {
+  Memory memory = Integrator::memory();
+  memory.numbers.push_back(next_dt_);
+  for (const Vector6& rate : rate_) memory.numbers.insert(memory.numbers.end(), rate.begin(), rate.end());
+  return memory;
+}
+
+void Overdamped::recall(const Memory& memory) {
+  Integrator::recall(memory);
+  next_dt_ = memory.numbers.at(1);
+  for (std::size_t p = 0; p < rate_.size(); ++p)
+    for (int k = 0; k < 6; ++k) rate_[p][k] = memory.numbers.at(2 + 6 * p + k);
 }
 
 // The step that moves the front by the largest displacement allowed, or up to the next particle if nothing moves.
 double Overdamped::proposal(double latest_time) const {
   const Frame& f = state_.state;
   const double R = model_.droplet.radius(f.time);
-  const double a = *std::min_element(state_.particles.radius.begin(), state_.particles.radius.end());
   bool at_front = false;
   for (const std::int32_t p : activity_.active())
     at_front = at_front || std::abs(f.position[p].norm() - R) < state_.particles.radius[p];
-  const double travel = control_.largest_displacement * a;
+  const double travel = control_.largest_displacement * smallest_radius();
   double R_next = R - travel;
   if (!at_front) {
     // Nothing is at the surface: run to the next particle that it will reach, active or not.
@@ -107,9 +110,7 @@ Overdamped::Attempt Overdamped::attempt(double dt) {
   if (activity_.front_at(model_.droplet.radius(state_.state.time + dt))) network_changed_ = true;
   refresh();
   predict(dt);
-  const double a = *std::min_element(state_.particles.radius.begin(), state_.particles.radius.end());
-  ++statistics_.solves;
-  const auto outcome = implicit_.solve(dt, model_.droplet.radius(state_.state.time + dt), 1e-6 * a);
+  const auto outcome = implicit_.solve(dt, model_.droplet.radius(state_.state.time + dt), 1e-6 * smallest_radius());
   statistics_.newton_iterations += outcome.iterations;
   if (!outcome.converged) return {false, 0.3 * dt};
   const double moved = largest_displacement() / control_.largest_displacement;
@@ -126,59 +127,18 @@ void Overdamped::accept(double dt) {
   Frame& f = state_.state;
   const auto& active = activity_.active();
   for (std::size_t k = 0; k < active.size(); ++k) {
-    f.position[active[k]] += implicit_.increments()[k].head<3>();
-    rate_[active[k]] = implicit_.increments()[k] / dt;
+    const std::int32_t p = active[k];
+    f.position[p] += implicit_.increments()[k].head<3>();
+    rate_[p] = implicit_.increments()[k] / dt;
+    f.velocity[p] = rate_[p].head<3>();
+    f.angular_velocity[p] = rate_[p].tail<3>() / state_.particles.radius[p];
   }
   f.time += dt;
   ++f.step;
   ++statistics_.steps;
-
-  bool lost = false;
-  for (Contact& bond : f.contacts) {
-    const BondLaw& law = laws_(bond.i, bond.j);
-    const double a_i = state_.particles.radius[bond.i], a_j = state_.particles.radius[bond.j];
-    advance(bond, law,
-            {f.position[bond.j] - f.position[bond.i], implicit_.translation(bond.j) - implicit_.translation(bond.i),
-             implicit_.rotation(bond.i), implicit_.rotation(bond.j), a_i, a_j});
-    statistics_.largest_overlap = std::max(statistics_.largest_overlap, -bond.gap / pair_radius(a_i, a_j));
-    if (bond.gap > law.lost_gap()) {
-      bond.born = -1;
-      lost = true;
-      open_.open({bond.i, bond.j});
-      ++statistics_.contacts_lost;
-    }
-  }
-  if (lost) {
-    std::erase_if(f.contacts, [](const Contact& bond) { return bond.born < 0; });
-    network_changed_ = true;
-  }
-  open_.update(f.position, state_.particles.radius, f.contacts);
-  make_contacts();
-}
-
-void Overdamped::make_contacts() {
-  Frame& f = state_.state;
-  std::vector<Pair> made;
-  for (const Pair& pair : open_.pairs()) {
-    const double reach = state_.particles.radius[pair.i] + state_.particles.radius[pair.j];
-    if ((f.position[pair.j] - f.position[pair.i]).squaredNorm() <= reach * reach &&
-        (activity_.is_active(pair.i) || activity_.is_active(pair.j)))
-      made.push_back(pair);
-  }
-  for (const Pair& pair : made) {
-    open_.close(pair);
-    activity_.wake(pair.i);
-    activity_.wake(pair.j);
-    const Contact bond = make_bond(laws_(pair.i, pair.j), pair.i, pair.j, f.position[pair.j] - f.position[pair.i],
-                                   state_.particles.radius[pair.i], state_.particles.radius[pair.j], f.step);
-    const auto place =
-        std::lower_bound(f.contacts.begin(), f.contacts.end(), pair, [](const Contact& c, const Pair& q) {
-          return Pair{c.i, c.j} < q;
-        });
-    f.contacts.insert(place, bond);
-    ++statistics_.contacts_made;
-  }
-  network_changed_ = network_changed_ || !made.empty();
+  statistics_.particle_steps += static_cast<std::int64_t>(active.size());
+  const auto motion_of = [&](std::int32_t p) { return Motion{implicit_.translation(p), implicit_.rotation(p)}; };
+  if (advance_bonds(motion_of)) network_changed_ = true;
 }
 
 }  // namespace crumble

@@ -1,8 +1,8 @@
 // The default integrator: no inertia, implicit contacts, steps as long as the motion is smooth.
 #pragma once
 
-#include "dryer/drying.hpp"
 #include "dryer/implicit_step.hpp"
+#include "dryer/integrator.hpp"
 
 namespace crumble {
 
@@ -11,23 +11,18 @@ struct OverdampedControl {
   double contact_precision = 1e-4;     // a contact is made when the overlap is within this, in the radius
 };
 
-struct OverdampedStatistics {
-  std::int64_t steps = 0, rejected = 0, solves = 0, newton_iterations = 0;
-  std::int64_t contacts_made = 0, contacts_lost = 0;
-  double largest_overlap = 0;  // deepest overlap of any bond at the end of a step, in the pair's radius
-};
-
 // Steps through the drying with ImplicitStep. A step ends where the first new contact touches (its length is cut by the
 // secant until the overlap is within contact_precision), so contacts are made one after another, in their order.
-class Overdamped {
+class Overdamped : public Integrator {
  public:
   Overdamped(const DryingModel& model, Agglomerate& state, const OverdampedControl& control);
 
   // One accepted step; the front does not pass the radius at `latest_time`. Throws std::runtime_error naming time, step
   // and the worst particle if no step length converges.
-  void step(double latest_time);
+  void step(double latest_time) override;
 
-  const OverdampedStatistics& statistics() const { return statistics_; }
+  Memory memory() const override;
+  void recall(const Memory& memory) override;
 
  private:
   struct Attempt {
@@ -40,20 +35,13 @@ class Overdamped {
   double touch_fraction() const;
   double largest_displacement() const;
   void accept(double dt);
-  void make_contacts();
   void refresh();
 
-  const DryingModel& model_;
-  Agglomerate& state_;
   OverdampedControl control_;
-  BondLaws laws_;
-  OpenPairs open_;
-  Activity activity_;
   ImplicitStep implicit_;
   bool network_changed_ = true;
   double next_dt_ = 0;         // proposal of the step control, s
   std::vector<Vector6> rate_;  // velocities of the last step, per particle
-  OverdampedStatistics statistics_;
 };
 
 }  // namespace crumble

@@ -1,0 +1,84 @@
+#include "dryer/integrator.hpp"
+
+#include <algorithm>
+
+#include "common/agglomerate/bond.hpp"
+
+namespace crumble {
+
+namespace {
+double smallest(const std::vector<double>& radius) { return *std::min_element(radius.begin(), radius.end()); }
+}  // namespace
+
+Integrator::Integrator(const DryingModel& model, Agglomerate& state, double skin)
+    : model_(model),
+      state_(state),
+      laws_(model.contact, model.material, state.particles.radius),
+      open_(skin * smallest(state.particles.radius)),
+      activity_(state.particles, state.state),
+      smallest_radius_(smallest(state.particles.radius)) {
+  const Frame& f = state.state;
+  open_.update(f.position, state.particles.radius, f.contacts);
+  activity_.front_at(model.droplet.radius(f.time));
+}
+
+void Integrator::advance_bond(Contact& bond, const Motion& i, const Motion& j, bool& lost) {
+  const Frame& f = state_.state;
+  const double a_i = state_.particles.radius[bond.i], a_j = state_.particles.radius[bond.j];
+  const BondLaw& law = laws_(bond.i, bond.j);
+  advance(bond, law,
+          {f.position[bond.j] - f.position[bond.i], j.displacement - i.displacement, i.rotation, j.rotation, a_i, a_j});
+  statistics_.largest_overlap = std::max(statistics_.largest_overlap, -bond.gap / pair_radius(a_i, a_j));
+  if (bond.gap <= law.lost_gap()) return;
+  bond.born = -1;  // marks it for removal
+  open_.open({bond.i, bond.j});
+  ++statistics_.contacts_lost;
+  lost = true;
+}
+
+bool Integrator::update_network(bool lost) {
+  Frame& f = state_.state;
+  const auto& radius = state_.particles.radius;
+  if (lost) std::erase_if(f.contacts, [](const Contact& bond) { return bond.born < 0; });
+  open_.update(f.position, radius, f.contacts);
+  std::vector<Pair> made;
+  for (const Pair& pair : open_.pairs()) {
+    const double reach = radius[pair.i] + radius[pair.j];
+    if ((f.position[pair.j] - f.position[pair.i]).squaredNorm() <= reach * reach &&
+        (activity_.is_active(pair.i) || activity_.is_active(pair.j)))
+      made.push_back(pair);
+  }
+  for (const Pair& pair : made) {
+    open_.close(pair);
+    activity_.wake(pair.i);
+    activity_.wake(pair.j);
+    const Contact bond = make_bond(laws_(pair.i, pair.j), pair.i, pair.j, f.position[pair.j] - f.position[pair.i],
+                                   radius[pair.i], radius[pair.j], f.step);
+    const auto place =
+        std::lower_bound(f.contacts.begin(), f.contacts.end(), pair, [](const Contact& c, const Pair& q) {
+          return Pair{c.i, c.j} < q;
+        });
+    f.contacts.insert(place, bond);
+    ++statistics_.contacts_made;
+  }
+  return lost || !made.empty();
+}
+
+Integrator::Memory Integrator::memory() const {
+  const IntegratorStatistics& s = statistics_;
+  Memory memory;
+  memory.numbers = {s.largest_overlap};
+  memory.counts = {s.steps, s.rejected, s.newton_iterations, s.particle_steps, s.contacts_made, s.contacts_lost};
+  for (std::size_t p = 0; p < state_.particles.size(); ++p)
+    memory.active.push_back(activity_.is_active(static_cast<std::int32_t>(p)));
+  return memory;
+}
+
+void Integrator::recall(const Memory& memory) {
+  const auto& c = memory.counts;
+  statistics_ = {c.at(0), c.at(1), c.at(2), c.at(3), c.at(4), c.at(5), memory.numbers.at(0)};
+  for (std::size_t p = 0; p < state_.particles.size(); ++p)
+    if (memory.active.at(p)) activity_.wake(static_cast<std::int32_t>(p));
+}
+
+}  // namespace crumble

@@ -1,0 +1,76 @@
+// What both integrators share: the state, who is active, and the making and losing of contacts.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "common/agglomerate/agglomerate.hpp"
+#include "dryer/activity.hpp"
+#include "dryer/bond_laws.hpp"
+#include "dryer/model.hpp"
+#include "dryer/open_pairs.hpp"
+
+namespace crumble {
+
+struct IntegratorStatistics {
+  std::int64_t steps = 0, rejected = 0, newton_iterations = 0;
+  std::int64_t particle_steps = 0;  // sum of the active particles over the steps
+  std::int64_t contacts_made = 0, contacts_lost = 0;
+  double largest_overlap = 0;  // deepest overlap of any bond at the end of a step, in the pair's radius
+};
+
+class Integrator {
+ public:
+  virtual ~Integrator() = default;
+  Integrator(const Integrator&) = delete;
+  Integrator& operator=(const Integrator&) = delete;
+
+  // One step, not beyond latest_time. Throws std::runtime_error or std::domain_error saying what failed where.
+  virtual void step(double latest_time) = 0;
+
+  const IntegratorStatistics& statistics() const { return statistics_; }
+
+  // All that the next step depends on beside the state, for a restart to the same bits.
+  struct Memory {
+    std::vector<double> numbers;
+    std::vector<std::int64_t> counts;
+    std::vector<std::uint8_t> active;
+  };
+  virtual Memory memory() const;
+  virtual void recall(const Memory& memory);
+
+ protected:
+  // skin: how far beyond contact near pairs are listed, in the smallest radius.
+  Integrator(const DryingModel& model, Agglomerate& state, double skin);
+
+  struct Motion {
+    Vector3 displacement, rotation;  // m, rad
+  };
+  // After the positions have moved: advances the bonds by the motion of their particles, drops what has opened beyond
+  // its law's reach and bonds what touches. True if the network has changed.
+  template <class MotionOf>
+  bool advance_bonds(MotionOf motion_of);
+
+  double smallest_radius() const { return smallest_radius_; }
+
+  const DryingModel& model_;
+  Agglomerate& state_;
+  BondLaws laws_;
+  OpenPairs open_;
+  Activity activity_;
+  IntegratorStatistics statistics_;
+
+ private:
+  void advance_bond(Contact& bond, const Motion& i, const Motion& j, bool& lost);
+  bool update_network(bool lost);
+  double smallest_radius_;
+};
+
+template <class MotionOf>
+bool Integrator::advance_bonds(MotionOf motion_of) {
+  bool lost = false;
+  for (Contact& bond : state_.state.contacts) advance_bond(bond, motion_of(bond.i), motion_of(bond.j), lost);
+  return update_network(lost);
+}
+
+}  // namespace crumble

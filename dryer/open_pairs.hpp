@@ -1,0 +1,32 @@
+// Pairs that may touch soon.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "common/agglomerate/agglomerate.hpp"
+#include "common/numerics/neighbours.hpp"
+
+namespace crumble {
+
+// Near pairs that are not bonded, sorted; found anew when something has moved half the skin.
+class OpenPairs {
+ public:
+  explicit OpenPairs(double skin) : skin_(skin) {}
+  void update(const std::vector<Vector3>& position, const std::vector<double>& radius,
+              const std::vector<Contact>& bonds);
+  void open(Pair pair);
+  void close(Pair pair);
+  const std::vector<Pair>& pairs() const { return pairs_; }
+  double skin() const { return skin_; }
+  std::int64_t searches() const { return searches_; }
+
+ private:
+  double skin_;
+  NeighbourSearch search_;
+  std::vector<Pair> pairs_;
+  std::vector<Vector3> reference_;
+  std::int64_t searches_ = 0;
+};
+
+}  // namespace crumble
