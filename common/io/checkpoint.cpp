@@ -1,0 +1,77 @@
+#include "common/io/checkpoint.hpp"
+
+#include <fmt/core.h>
+
+#include "common/io/hdf5.hpp"
+
+namespace crumble {
+
+namespace {
+
+// Where two texts first differ, for a message: the two lines.
+std::string first_difference(const std::string& before, const std::string& now) {
+  std::size_t start = 0, k = 0;
+  for (; k < before.size() && k < now.size() && before[k] == now[k]; ++k)
+    if (before[k] == '\n') start = k + 1;
+  const auto line = [start](const std::string& text) {
+    return start < text.size() ? text.substr(start, text.find('\n', start) - start) : std::string("(nothing)");
+  };
+  return fmt::format("'{}' then, '{}' now", line(before), line(now));
+}
+
+template <class T>
+const std::vector<T>& find(const std::map<std::string, std::vector<T>>& arrays, const std::string& name) {
+  const auto found = arrays.find(name);
+  if (found == arrays.end()) throw ContentError("the checkpoint has no array '" + name + "'");
+  return found->second;
+}
+
+template <class T>
+void write_arrays(hdf5::File& file, const std::map<std::string, std::vector<T>>& arrays) {
+  for (const auto& [name, values] : arrays)
+    file.create_dataset<T>("/restart/" + name, {values.size()}).write(std::span<const T>(values));
+}
+
+}  // namespace
+
+const std::vector<double>& Checkpoint::real(const std::string& name) const { return find(reals, name); }
+const std::vector<std::int64_t>& Checkpoint::integer(const std::string& name) const { return find(integers, name); }
+
+void save_checkpoint(const std::filesystem::path& path, const CheckpointOwner& owner, const Checkpoint& checkpoint) {
+  const std::filesystem::path temporary = path.string() + ".tmp";
+  hdf5::File file = hdf5::File::create(temporary);
+  hdf5::Group group = file.create_group("/restart");
+  group.set_attribute("program", std::string_view(owner.program));
+  group.set_attribute("version", std::string_view(owner.version));
+  file.write_text("/restart/scene", owner.scene);
+  write_arrays(file, checkpoint.reals);
+  write_arrays(file, checkpoint.integers);
+  file.close();
+  std::filesystem::rename(temporary, path);
+}
+
+Checkpoint load_checkpoint(const std::filesystem::path& path, const CheckpointOwner& owner) {
+  const hdf5::File file = hdf5::File::open(path);
+  if (file.kind("/restart") != hdf5::Kind::group || file.kind("/restart/scene") != hdf5::Kind::dataset)
+    throw ContentError(path.string() + ": not a checkpoint (no /restart)");
+  const hdf5::Group group = file.group("/restart");
+  const auto refuse = [&](const std::string& what) {
+    throw InputError(fmt::format("{}: {}; remove it to start anew, or run what it was made by", path.string(), what));
+  };
+  const std::string program = group.text_attribute("program").at(0), version = group.text_attribute("version").at(0);
+  if (program != owner.program) refuse("a checkpoint of " + program + ", not of " + owner.program);
+  if (version != owner.version) refuse("made by version " + version + ", this is " + owner.version);
+  const std::string scene = file.dataset("/restart/scene").read_text();
+  if (scene != owner.scene) refuse("made from another scene: " + first_difference(scene, owner.scene));
+
+  Checkpoint checkpoint;
+  for (const std::string& name : group.names()) {
+    if (name == "scene") continue;
+    const hdf5::Dataset dataset = file.dataset("/restart/" + name);
+    if (dataset.type() == hdf5::Type::float64) checkpoint.reals[name] = dataset.read<double>();
+    if (dataset.type() == hdf5::Type::int64) checkpoint.integers[name] = dataset.read<std::int64_t>();
+  }
+  return checkpoint;
+}
+
+}  // namespace crumble

@@ -1,0 +1,131 @@
+// Dries one droplet of colloid: scene in, agglomerate file out.
+#include <fmt/core.h>
+
+#include <filesystem>
+
+#include "common/io/command_line.hpp"
+#include "common/io/interrupt.hpp"
+#include "common/io/program.hpp"
+#include "common/io/provenance.hpp"
+#include "common/numerics/noise.hpp"
+#include "dryer/drying_checkpoint.hpp"
+#include "dryer/result.hpp"
+#include "dryer/scene.hpp"
+
+using namespace crumble;
+
+namespace {
+
+ProgramDescription description() {
+  return {"dryer",
+          "Dries a droplet of colloid into a granule: the shrinking surface drags the particles along, they bond where "
+          "they "
+          "touch, and what is left when the liquid is gone is the agglomerate.",
+          {},
+          {{"dryer hollow.toml -o hollow.h5 --seed 3 --report hollow.json", "dry one granule"},
+           {"dryer hollow.toml -o soft.h5 --set contact.rolling_limit_factor=0",
+            "the same droplet without rolling resistance"},
+           {"dryer hollow.toml --check", "say what the scene means, run nothing"}},
+          version_text("dryer"),
+          drying_parameters()};
+}
+
+// Frames are due whenever the front has passed the next of evenly spaced radii.
+int frames_due(const DryingScene& scene, const DryingRun& run) {
+  return run.finished() ? scene.frames + 1 : static_cast<int>(run.fraction() * (scene.frames + 1));
+}
+
+void advance(DryingRun& run, ProgressPrinter& progress) {
+  run.step();
+  progress.update(run.fraction(), run.integrator().statistics().steps, [&] {
+    return fmt::format("R = {:.3g} nm, {} contacts", run.droplet_radius() * 1e9, run.state().state.contacts.size());
+  });
+}
+
+DryingOutcome run_companion(const DryingScene& scene, const CommandLine& line) {
+  ProgressPrinter progress(stderr, "error estimate", line.quiet);
+  DryingRun run(scene, 2);
+  while (!run.finished()) {
+    advance(run, progress);
+    if (interrupt_signal())
+      throw Interrupted(interrupt_signal(), "stopped during the error estimate: nothing to keep yet");
+  }
+  return outcome(morphology(run.state().particles, run.state().state));
+}
+
+AgglomerateWriter open_writer(const CommandLine& line, const Scene& scene, const Provenance& provenance,
+                              const DryingRun& run) {
+  return {line.output, run.state().particles, {"dryer", provenance, scene.given(), scene.resolved(), "total"}};
+}
+
+// Steps to the end and writes the frames that fall due. Whatever ends it early leaves a checkpoint.
+void run_to_the_end(DryingRun& run, const DryingScene& scene, AgglomerateWriter& writer, DryingCheckpoint& checkpoint,
+                    const std::optional<DryingOutcome>& companion, ProgressPrinter& progress) {
+  int frames = checkpoint.found() ? checkpoint.frames() : 0;
+  std::int64_t last_frame_step = checkpoint.found() ? checkpoint.last_frame_step() : 0;
+  const auto frame = [&](int number) {
+    append_frame(writer, run);
+    frames = number;
+    last_frame_step = run.state().state.step;
+  };
+  try {
+    if (frames == 0) frame(1);
+    while (!run.finished()) {
+      advance(run, progress);
+      if (frames_due(scene, run) >= frames) frame(frames_due(scene, run) + 1);
+      if (interrupt_signal())
+        throw Interrupted(interrupt_signal(), fmt::format("stopped at t = {:g} s", run.state().state.time));
+    }
+  } catch (const std::exception& error) {
+    checkpoint.save(run, companion, frames, last_frame_step);
+    writer.suspend();
+    progress.say(fmt::format("the state is kept in {}; the same command goes on from there", checkpoint.path()));
+    throw;
+  }
+}
+
+int dry(int argc, const char* const* argv) {
+  const CommandLine line = parse_command_line(description(), argc, argv);
+  if (line.answer) {
+    fmt::print("{}", *line.answer);
+    return 0;
+  }
+  const Scene text = Scene::read(line.scene, drying_parameters(), line.overrides);
+  const DryingScene scene = drying_scene(text);
+  const Provenance provenance = make_provenance("dryer", {argv, argv + argc}, scene.seed, rng_name);
+  Report report("dryer", provenance.version, line.scene, static_cast<std::int64_t>(scene.seed));
+  ProgressPrinter progress(stderr, line.check ? line.scene : std::filesystem::path(line.output).stem().string(),
+                           line.quiet);
+  for (const std::string& fact : describe(scene)) progress.say(fact);
+  if (line.check) {
+    const DryingRun builds(scene, 1);
+    return 0;
+  }
+
+  DryingCheckpoint checkpoint(line.output, {"dryer", provenance.version, text.resolved()});
+  if (checkpoint.found()) progress.say("resuming from " + checkpoint.path());
+  std::optional<DryingOutcome> companion;
+  if (checkpoint.found())
+    companion = checkpoint.companion();
+  else if (scene.estimate_error)
+    companion = run_companion(scene, line);
+  DryingRun run = checkpoint.found() ? checkpoint.resume(scene) : DryingRun(scene, 1);
+  AgglomerateWriter writer = checkpoint.found() ? AgglomerateWriter::resume(line.output, checkpoint.last_frame_step())
+                                                : open_writer(line, text, provenance, run);
+  run_to_the_end(run, scene, writer, checkpoint, companion, progress);
+
+  const Morphology result = morphology(run.state().particles, run.state().state);
+  write_morphology(writer, result);
+  writer.finish("dry");
+  checkpoint.remove();
+  fill_report(report, scene, run, result, companion);
+  if (!line.report.empty()) report.write(line.report);
+  fmt::print("{}", result_text(result, companion));
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return run_program("dryer", [&] { return dry(argc, argv); });
+}

@@ -1,0 +1,101 @@
+#include "dryer/result.hpp"
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "dryer/drag.hpp"
+
+namespace crumble {
+
+void append_frame(AgglomerateWriter& writer, const DryingRun& run) {
+  const auto surface = run.surface();
+  writer.append(run.state().state, {{"droplet_radius", run.droplet_radius()},
+                                    {"wetted_count", static_cast<double>(surface.wetted)},
+                                    {"capillary_force", surface.largest_force}});
+}
+
+void write_morphology(AgglomerateWriter& writer, const Morphology& m) {
+  const std::string method = "farthest and nearest tenth of the particles (Vasquez Giuliano et al. 2022, section 3.1)";
+  writer.put("/morphology/diameter", m.extent.diameter(), method);
+  writer.put("/morphology/crust_thickness", m.extent.crust_thickness(), method);
+  writer.put("/morphology/void_radius", m.extent.inner, method);
+  writer.put("/morphology/porosity", m.porosity, "void fraction within the outer radius");
+}
+
+namespace {
+
+double relative(double value, double reference) { return std::abs(value - reference) / std::abs(reference); }
+
+void fill_left_out(Report& report, const DryingScene& scene, const DryingRun& run) {
+  const auto& s = run.integrator().statistics();
+  const double idle = 1 - static_cast<double>(s.particle_steps) /
+                              (static_cast<double>(s.steps) * static_cast<double>(scene.radius.size()));
+  report.left_out.push_back(fmt::format(
+      "idle particles: {:.0f} % of all particle steps were not computed, since without Brownian motion no force "
+      "acts before the front or a bond arrives",
+      100 * idle));
+  report.left_out.push_back("Brownian motion: no diffusion (Pe = infinity), no random number is drawn after the start");
+  if (!scene.inertial) {
+    const double a = scene.radius.front(), mu = scene.model.viscosity;
+    const double inertia = 2 * scene.model.material.density * a * a / (9 * mu);
+    report.left_out.push_back(fmt::format("inertia: velocities relax within {:.2g} s, the liquid lives {:.2g} s",
+                                          inertia, scene.model.droplet.lifetime));
+  }
+  report.left_out.push_back(
+      "hydrodynamic interaction between particles: free draining (paper, section 2.1); lubrication and attraction "
+      "before "
+      "contact: opposite effects, both neglected as in the paper");
+}
+
+}  // namespace
+
+void fill_report(Report& report, const DryingScene& scene, const DryingRun& run, const Morphology& m,
+                 const std::optional<DryingOutcome>& companion) {
+  const auto& s = run.integrator().statistics();
+  report.steps = s.steps;
+  report.result("d_c_nm", m.extent.diameter() * 1e9);
+  report.result("h_c_over_d_c", m.extent.relative_crust());
+  report.result("contacts", m.contacts);
+  report.result("coordination", m.coordination);
+  report.result("fragments", m.fragments);
+  report.result("radius_of_gyration_nm", m.radius_of_gyration * 1e9);
+  report.result("contacts_within_0_02_a", m.touching);
+  report.result("porosity", m.porosity);
+  report.result("contacts_made", s.contacts_made);
+  report.result("contacts_lost", s.contacts_lost);
+
+  report.error("largest_overlap_over_a", s.largest_overlap,
+               "deepest overlap of two bonded particles at the end of any step");
+  const std::string how =
+      companion ? "difference to the same run with doubled step control" : "not estimated: error.estimate = false";
+  std::optional<double> d_c, h_c, contacts;
+  if (companion) {
+    d_c = relative(companion->d_c, m.extent.diameter());
+    h_c = std::abs(companion->h_c_over_d_c - m.extent.relative_crust());
+    if (m.contacts > 0) contacts = relative(companion->contacts, static_cast<double>(m.contacts));
+  }
+  report.error("d_c_relative", d_c, how);
+  report.error("h_c_over_d_c", h_c, how);
+  report.error("contacts_relative", contacts, contacts || !companion ? how : "not estimated: no contacts");
+  fill_left_out(report, scene, run);
+}
+
+std::string result_text(const Morphology& m, const std::optional<DryingOutcome>& companion) {
+  const auto error = [&](double value, double other, int digits) {
+    return companion ? fmt::format(" +- {:.{}f}", std::abs(value - other), digits) : std::string();
+  };
+  const DryingOutcome other = companion.value_or(DryingOutcome{});
+  std::string text;
+  text += fmt::format("d_c           {:.2f}{} nm\n", m.extent.diameter() * 1e9,
+                      error(m.extent.diameter() * 1e9, other.d_c * 1e9, 2));
+  text += fmt::format("h_c/d_c       {:.4f}{}\n", m.extent.relative_crust(),
+                      error(m.extent.relative_crust(), other.h_c_over_d_c, 4));
+  text += fmt::format("contacts      {}{}\n", m.contacts, error(static_cast<double>(m.contacts), other.contacts, 0));
+  text += fmt::format("coordination  {:.3f}\n", m.coordination);
+  text += fmt::format("fragments     {}\n", m.fragments);
+  if (companion) text += "+-: difference to the same run with doubled step control\n";
+  return text;
+}
+
+}  // namespace crumble

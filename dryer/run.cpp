@@ -1,0 +1,51 @@
+#include "dryer/run.hpp"
+
+#include <algorithm>
+
+#include "dryer/inertial.hpp"
+#include "dryer/start.hpp"
+
+namespace crumble {
+
+namespace {
+
+std::unique_ptr<Integrator> make_integrator(const DryingScene& scene, double coarsening, Agglomerate& state) {
+  if (scene.inertial) return std::make_unique<Inertial>(scene.model, state, coarsening * scene.step);
+  OverdampedControl control = scene.control;
+  control.largest_displacement *= coarsening;
+  control.contact_precision *= coarsening;
+  return std::make_unique<Overdamped>(scene.model, state, control);
+}
+
+}  // namespace
+
+DryingRun::DryingRun(const DryingScene& scene, double coarsening, Agglomerate state)
+    : scene_(scene), state_(std::move(state)), integrator_(make_integrator(scene, coarsening, state_)) {}
+
+DryingRun::DryingRun(const DryingScene& scene, double coarsening)
+    : DryingRun(scene, coarsening,
+                random_suspension(scene.radius, scene.model.material.density, scene.model.droplet.initial_radius,
+                                  scene.seed)) {}
+
+DryingRun::DryingRun(const DryingScene& scene, double coarsening, Agglomerate state, const Integrator::Memory& memory)
+    : DryingRun(scene, coarsening, std::move(state)) {
+  integrator_->recall(memory);
+}
+
+DryingRun::Surface DryingRun::surface() const {
+  Surface surface;
+  const double R = droplet_radius();
+  for (std::size_t p = 0; p < state_.particles.size() && R > 0; ++p) {
+    const double force = capillary_force(scene_.model.droplet.surface_tension, state_.particles.radius[p],
+                                         state_.state.position[p].norm() - R);
+    if (force > 0) ++surface.wetted;
+    surface.largest_force = std::max(surface.largest_force, force);
+  }
+  return surface;
+}
+
+DryingOutcome outcome(const Morphology& m) {
+  return {m.extent.diameter(), m.extent.relative_crust(), static_cast<double>(m.contacts)};
+}
+
+}  // namespace crumble

@@ -1,0 +1,50 @@
+// One drying, from the filled droplet to the dry granule.
+#pragma once
+
+#include <memory>
+
+#include "common/agglomerate/morphology.hpp"
+#include "dryer/integrator.hpp"
+#include "dryer/scene.hpp"
+
+namespace crumble {
+
+class DryingRun {
+ public:
+  // coarsening: factor on the step control; 1 for the run itself, 2 for the companion that measures its error.
+  DryingRun(const DryingScene& scene, double coarsening);
+
+  // A run that goes on from a saved state.
+  DryingRun(const DryingScene& scene, double coarsening, Agglomerate state, const Integrator::Memory& memory);
+
+  void step() { integrator_->step(scene_.model.droplet.lifetime); }
+  bool finished() const { return state_.state.time >= scene_.model.droplet.lifetime; }
+
+  double droplet_radius() const { return scene_.model.droplet.radius(state_.state.time); }
+  double fraction() const { return 1 - droplet_radius() / scene_.model.droplet.initial_radius; }
+
+  const Agglomerate& state() const { return state_; }
+  const Integrator& integrator() const { return *integrator_; }
+
+  // Particles that the surface cuts, and the largest capillary force on one, N.
+  struct Surface {
+    std::int64_t wetted = 0;
+    double largest_force = 0;
+  };
+  Surface surface() const;
+
+ private:
+  DryingRun(const DryingScene& scene, double coarsening, Agglomerate state);
+
+  const DryingScene& scene_;
+  Agglomerate state_;
+  std::unique_ptr<Integrator> integrator_;
+};
+
+// What a run came to; the companion run of the error estimate leaves just this.
+struct DryingOutcome {
+  double d_c = 0, h_c_over_d_c = 0, contacts = 0;
+};
+DryingOutcome outcome(const Morphology& morphology);
+
+}  // namespace crumble

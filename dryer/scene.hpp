@@ -1,0 +1,32 @@
+// What a drying scene may say, and what it means in numbers.
+#pragma once
+
+#include <optional>
+
+#include "common/io/parameters.hpp"
+#include "dryer/model.hpp"
+#include "dryer/overdamped.hpp"
+
+namespace crumble {
+
+const ParameterTable& drying_parameters();
+
+struct DryingScene {
+  std::vector<double> radius;  // one a particle, m
+  DryingModel model;
+  std::uint64_t seed = 1;
+  bool inertial = false;
+  double step = 0;  // inertial only, s
+  OverdampedControl control;
+  int frames = 0;
+  bool estimate_error = true;
+};
+
+// Throws InputError naming file, line and keys where values contradict each other.
+DryingScene drying_scene(const Scene& scene);
+
+// What follows from the scene before anything is run, a line each: solids, capillary speed limit against front speed,
+// time scales, regime.
+std::vector<std::string> describe(const DryingScene& scene);
+
+}  // namespace crumble
