@@ -21,6 +21,8 @@ done
 
 # Stands for the dryer: writes both files; BREAK=<seed> fails after the report stands under its final name.
 DRYER = """#!/bin/bash
+echo "115 particles in a droplet" >&2
+[[ $2 != --check ]] || exit "${SCENE_CODE:-0}"
 echo "dryer $*" >> "$LOG"
 scene=$1
 seed=1
@@ -38,6 +40,7 @@ cat > "$report" << EOF
  "coordination": 3}, "errors": {"d_c_relative": {"value": 0.01, "how": "halving"}}, "left_out": []}
 EOF
 [[ ${BREAK:-} != "$seed" ]] || exit 1
+echo "seed $seed: a message" >&2
 echo data > "$out"
 """
 

@@ -22,6 +22,18 @@ class MainJob(Sandbox):
         self.assertRegex(done.stdout, r"(?m)^ *mean +160\.0 +0\.300 +173 +3\.00")
         self.assertRegex(done.stdout, r"(?m)^ *paper +160 +0\.28 +183-185 +3\.18$")
 
+    def test_the_meaning_of_the_scene_is_said_once_and_every_message_of_a_run(self):
+        said = self.make().stderr.splitlines()
+        self.assertEqual(said.count("115 particles in a droplet"), 1, said)
+        self.assertEqual(sorted(line for line in said if "message" in line),
+                         [f"seed {seed}: a message" for seed in range(1, 6)])
+
+    def test_a_scene_that_is_refused_stops_before_any_run(self):
+        done = self.make(SCENE_CODE="2")
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("115 particles in a droplet", done.stderr)
+        self.assertEqual(self.called("dryer"), [])
+
     def test_again_does_nothing_but_print_the_table(self):
         first = self.make()
         self.forget()
