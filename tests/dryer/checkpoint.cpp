@@ -1,0 +1,88 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "common/io/errors.hpp"
+#include "common/io/file_errors.hpp"
+#include "dryer/drying_checkpoint.hpp"
+
+using namespace crumble;
+
+namespace {
+
+DryingScene small_scene(const std::string& method) {
+  const std::string text =
+      "[particle]\nradius = 10e-9\nnumber = 20\n[droplet]\nradius = 120e-9\nlifetime = 2e-7\n"
+      "[integrator]\nmethod = \"" +
+      method + "\"\n";
+  return drying_scene(Scene::parse(text, "small.toml", drying_parameters()));
+}
+
+struct Folder {
+  std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("crumble-checkpoint-" + std::to_string(::getpid()));
+  Folder() { std::filesystem::create_directories(path); }
+  ~Folder() { std::filesystem::remove_all(path); }
+  std::string file(const std::string& name) const { return (path / name).string(); }
+};
+
+class Restart : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(Restart, continues_to_the_same_bits_from_any_step) {
+  const Folder folder;
+  const DryingScene scene = small_scene(GetParam());
+  DryingRun whole(scene, 1);
+  std::vector<int> stops;
+  int steps = 0;
+  for (; !whole.finished(); ++steps) whole.step();
+  for (const int stop : {1, steps / 3, 2 * steps / 3, steps - 2}) {
+    DryingRun first(scene, 1);
+    for (int k = 0; k < stop; ++k) first.step();
+    const std::string output = folder.file("out.h5");
+    std::ofstream(output + ".tmp") << "the unfinished output";
+    const CheckpointOwner owner{"dryer", "1", "scene"};
+    DryingCheckpoint(output, owner).save(first, DryingOutcome{1, 2, 3}, 4, 5);
+    const DryingCheckpoint found(output, owner);
+    ASSERT_TRUE(found.found());
+    EXPECT_EQ(found.companion()->contacts, 3);
+    EXPECT_EQ(found.frames(), 4);
+    DryingRun second = found.resume(scene);
+    while (!second.finished()) second.step();
+    const Frame &f = whole.state().state, &g = second.state().state;
+    EXPECT_EQ(f.position, g.position) << stop;
+    EXPECT_EQ(f.velocity, g.velocity) << stop;
+    EXPECT_EQ(f.step, g.step);
+    ASSERT_EQ(f.contacts.size(), g.contacts.size()) << stop;
+    for (std::size_t c = 0; c < f.contacts.size(); ++c) {
+      EXPECT_EQ(f.contacts[c].sliding, g.contacts[c].sliding);
+      EXPECT_EQ(f.contacts[c].rolling_torque, g.contacts[c].rolling_torque);
+      EXPECT_EQ(f.contacts[c].born, g.contacts[c].born);
+    }
+    EXPECT_EQ(whole.integrator().statistics().particle_steps, second.integrator().statistics().particle_steps);
+    found.remove();
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Integrators, Restart, ::testing::Values("overdamped", "inertial"));
+
+TEST(Checkpoint, of_another_scene_version_or_program_is_refused_with_the_difference) {
+  const Folder folder;
+  const std::string file = folder.file("x.checkpoint");
+  save_checkpoint(file, {"dryer", "0.1", "a = 1\nb = 2\n"}, {});
+  const auto message = [&](const CheckpointOwner& owner) {
+    try {
+      load_checkpoint(file, owner);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  EXPECT_NE(message({"dryer", "0.1", "a = 1\nb = 3\n"}).find("'b = 2' then, 'b = 3' now"), std::string::npos);
+  EXPECT_NE(message({"dryer", "0.2", "a = 1\nb = 2\n"}).find("version 0.1, this is 0.2"), std::string::npos);
+  EXPECT_NE(message({"breaker", "0.1", "a = 1\nb = 2\n"}).find("of dryer, not of breaker"), std::string::npos);
+  std::ofstream(file) << "not HDF5";
+  EXPECT_ANY_THROW(load_checkpoint(file, {"dryer", "0.1", ""}));
+}
+
+}  // namespace
