@@ -3,7 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <new>
+
+#include "common/io/in_child.hpp"
 
 namespace crumble {
 
@@ -50,16 +51,36 @@ void AgglomerateReader::refuse(const Violation& violation) const {
 }
 
 // A dataset whose form has been compared with the schema, so that its numbers can be used without further question.
-hdf5::Dataset AgglomerateReader::checked(const std::string& path) const {
+const hdf5::Dataset& AgglomerateReader::checked(const std::string& path) const {
+  if (const auto known = checked_.find(path); known != checked_.end()) return known->second;
   const schema::Entry* entry = schema::find(path);
   if (!entry) throw ContentError(name_ + ": " + path + ": is not in the schema");
   const auto violations = schema::check_form(file_, *entry, path, sizes_);
   if (!violations.empty()) refuse(violations.front());
   const bool timed = entry->layout == Layout::frames || entry->layout == Layout::samples;
-  return file_.dataset(timed ? path + "/value" : path);
+  return checked_[path] = file_.dataset(timed ? path + "/value" : path);
+}
+
+// Whether the frames have a field that not every stage knows.
+bool AgglomerateReader::has(const std::string& path) const {
+  return checked_.contains(path) || file_.kind(path) != Kind::missing;
 }
 
 AgglomerateReader::AgglomerateReader(const std::filesystem::path& path)
+    : AgglomerateReader((in_child(path,
+                                  [&] {
+                                    const AgglomerateReader reader(path, Unprotected{});
+                                    for (std::size_t t = 0; t < reader.frame_count(); ++t) reader.frame(t);
+                                    for (const auto& name : reader.observable_names())
+                                      if (schema::find("/observables/" + name)) reader.observable(name);
+                                    reader.input();
+                                    reader.resolved();
+                                    return std::string();
+                                  }),
+                         path),
+                        Unprotected{}) {}
+
+AgglomerateReader::AgglomerateReader(const std::filesystem::path& path, Unprotected)
     : name_(path.string()), file_(hdf5::File::open(path)) {
   for (const char* attribute : {"@version", "@stage", "@state", "@complete"}) {
     const std::string place = module_path + attribute;
@@ -171,13 +192,13 @@ Frame AgglomerateReader::frame(std::size_t t) const {
   frame.time = times_[t];
   frame.position = vectors(positions, t, 1);
   const auto optional = [&](const std::string& name, std::vector<Vector3>& field) {
-    if (file_.kind("/particles/all/" + name) != Kind::missing) field = vectors("/particles/all/" + name, t, 1);
+    if (has("/particles/all/" + name)) field = vectors("/particles/all/" + name, t, 1);
   };
   optional("velocity", frame.velocity);
   optional("angular_velocity", frame.angular_velocity);
   optional("force", frame.force);
   optional("torque", frame.torque);
-  if (file_.kind("/particles/all/orientation") != Kind::missing) {
+  if (has("/particles/all/orientation")) {
     const auto q = real_rows("/particles/all/orientation", t, 1);
     for (std::size_t k = 0; k < q.size(); k += 4) frame.orientation.emplace_back(q[k], q[k + 1], q[k + 2], q[k + 3]);
   }
@@ -202,10 +223,20 @@ std::string AgglomerateReader::input() const { return text("/parameters/input");
 std::string AgglomerateReader::resolved() const { return text("/parameters/resolved"); }
 
 Agglomerate read_agglomerate(const std::filesystem::path& path, std::optional<std::size_t> frame) {
-  const AgglomerateReader reader(path);
-  return {reader.particles(), frame ? reader.frame(*frame) : reader.last_frame()};
+  const auto read = [&] {
+    const AgglomerateReader reader(path, AgglomerateReader::Unprotected{});
+    return Agglomerate{reader.particles(), frame ? reader.frame(*frame) : reader.last_frame()};
+  };
+  in_child(path, [&] { return read(), std::string(); });
+  return read();
 }
 
-FileInfo read_info(const std::filesystem::path& path) { return AgglomerateReader(path).info(); }
+Agglomerate read_agglomerate(const std::filesystem::path& path) { return read_agglomerate(path, std::nullopt); }
+
+FileInfo read_info(const std::filesystem::path& path) {
+  const auto read = [&] { return AgglomerateReader(path, AgglomerateReader::Unprotected{}).info(); };
+  in_child(path, [&] { return read(), std::string(); });
+  return read();
+}
 
 }  // namespace crumble

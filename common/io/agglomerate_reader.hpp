@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,6 +29,7 @@ struct FileInfo {
 
 class AgglomerateReader {
  public:
+  // Reads the whole file once in a child process first, lest a damaged one takes the program down (see in_child.hpp).
   explicit AgglomerateReader(const std::filesystem::path& path);
 
   const FileInfo& info() const { return info_; }
@@ -44,7 +46,12 @@ class AgglomerateReader {
   std::string resolved() const;  // the scene with every default
 
  private:
-  hdf5::Dataset checked(const std::string& path) const;
+  friend Agglomerate read_agglomerate(const std::filesystem::path& path, std::optional<std::size_t> frame);
+  friend FileInfo read_info(const std::filesystem::path& path);
+  struct Unprotected {};
+  AgglomerateReader(const std::filesystem::path& path, Unprotected);
+  const hdf5::Dataset& checked(const std::string& path) const;
+  bool has(const std::string& path) const;
   std::vector<double> real_rows(const std::string& path, std::uint64_t first, std::uint64_t count) const;
   std::vector<Vector3> vectors(const std::string& path, std::uint64_t first, std::uint64_t count) const;
   std::string text(const std::string& path) const;
@@ -54,6 +61,7 @@ class AgglomerateReader {
   std::string name_;
   hdf5::File file_;
   mutable schema::Sizes sizes_;
+  mutable std::map<std::string, hdf5::Dataset> checked_;
   std::vector<std::int64_t> steps_, offsets_;
   std::vector<double> times_;
   FileInfo info_;
@@ -61,7 +69,8 @@ class AgglomerateReader {
 };
 
 // One frame, the last unless told otherwise, with its contacts and their histories.
-Agglomerate read_agglomerate(const std::filesystem::path& path, std::optional<std::size_t> frame = std::nullopt);
+Agglomerate read_agglomerate(const std::filesystem::path& path, std::optional<std::size_t> frame);
+Agglomerate read_agglomerate(const std::filesystem::path& path);
 
 FileInfo read_info(const std::filesystem::path& path);
 
