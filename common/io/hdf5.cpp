@@ -482,11 +482,22 @@ void Group::unlink(std::string_view path) {
   checked<WriteError>(H5Ldelete(id(), std::string(path).c_str(), H5P_DEFAULT), place(path), "cannot remove it");
 }
 
-File File::create(const std::filesystem::path& path) {
-  silence();
-  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+namespace {
+
+Handle file_access() {
+  Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   // Readable by every tool from HDF5 1.10 on, and by older ones wherever no newer feature is needed.
   H5Pset_libver_bounds(access.get(), H5F_LIBVER_EARLIEST, H5F_LIBVER_V110);
+  // Closing the file closes what is still open in it, so that close() means that all is written.
+  H5Pset_fclose_degree(access.get(), H5F_CLOSE_STRONG);
+  return access;
+}
+
+}  // namespace
+
+File File::create(const std::filesystem::path& path) {
+  silence();
+  const Handle access = file_access();
   File file;
   file.file_ = path.string();
   file.handle_ = Handle(checked<OpenError>(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()),
@@ -507,8 +518,7 @@ File File::open_with(const std::filesystem::path& path, unsigned flags) {
   if (!std::ifstream(path)) throw OpenError(file.file_ + ": " + std::strerror(errno));
   if (std::filesystem::file_size(path, problem) == 0) throw OpenError(file.file_ + ": is empty");
   if (H5Fis_hdf5(path.c_str()) == 0) throw OpenError(file.file_ + ": is not an HDF5 file");
-  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  H5Pset_libver_bounds(access.get(), H5F_LIBVER_EARLIEST, H5F_LIBVER_V110);
+  const Handle access = file_access();
   file.handle_ = Handle(checked<OpenError>(H5Fopen(path.c_str(), flags, access.get()), file.file_,
                                            "cannot be opened; it may be damaged, truncated or in use"),
                         H5Fclose);
