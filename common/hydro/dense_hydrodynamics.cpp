@@ -5,11 +5,11 @@ namespace crumble {
 DenseHydrodynamics::DenseHydrodynamics(const Spheres& spheres, double viscosity, const HydroModel& model)
     : Hydrodynamics(spheres, viscosity),
       interior_per_sphere_(5),
-      near_field_(near_field_resistance(reduced(), model)),
+      lubrication_(lubrication(reduced(), model)),
       factor_([&] {
         MobilityMatrix matrix = mobility_matrix(reduced(), model);
         interior_per_sphere_ = matrix.interior_per_sphere;
-        return ConstrainedFactor<double>(std::move(matrix), near_field_.motion_motion);
+        return ConstrainedFactor<double>(std::move(matrix), lubrication_.motion_resistance(size()));
       }()) {}
 
 Eigen::MatrixXd DenseHydrodynamics::interior_rows(const Eigen::MatrixXd& strain) const {
@@ -31,18 +31,20 @@ void DenseHydrodynamics::solve_resistance(const Eigen::MatrixXd& w_motion, const
   factor_.solve_resistance(x);
   q_motion = x.bottomRows(factor_.motion());
   q_strain = strain_rows(x);
-  add_near_field(near_field_, w_motion, w_strain, q_motion, q_strain);
+  lubrication_.add(w_motion, w_strain, q_motion, q_strain);
 }
 
 void DenseHydrodynamics::solve_mobility(const Eigen::MatrixXd& q_motion, const Eigen::MatrixXd& w_strain,
                                         Eigen::MatrixXd& w_motion, Eigen::MatrixXd& q_strain) const {
+  // Lubrication by the known strain counts as a known load; that by the velocities is in the factor.
+  const Eigen::MatrixXd at_rest = Eigen::MatrixXd::Zero(6 * size(), q_motion.cols());
+  Eigen::MatrixXd by_strain = at_rest, stresslet = Eigen::MatrixXd::Zero(5 * size(), q_motion.cols());
+  lubrication_.add(at_rest, w_strain, by_strain, stresslet);
   Eigen::MatrixXd x = interior_rows(w_strain);
-  x.bottomRows(factor_.motion()) = q_motion;
-  if (!near_field_.empty()) x.bottomRows(factor_.motion()) -= near_field_.motion_strain * w_strain;
+  x.bottomRows(factor_.motion()) = q_motion - by_strain;
   factor_.solve_mobility(x, w_motion);
   q_strain = strain_rows(x);
-  if (!near_field_.empty())
-    q_strain += near_field_.motion_strain.transpose() * w_motion + near_field_.strain_strain * w_strain;
+  lubrication_.add(w_motion, w_strain, by_strain, q_strain);
 }
 
 }  // namespace crumble

@@ -4,7 +4,6 @@
 #include "common/hydro/constrained_factor.hpp"
 #include "common/hydro/hydrodynamics.hpp"
 #include "common/hydro/model.hpp"
-#include "common/hydro/near_field_resistance.hpp"
 
 namespace crumble {
 
@@ -22,7 +21,7 @@ class DenseHydrodynamics : public Hydrodynamics {
 
  private:
   int interior_per_sphere_;
-  NearFieldResistance near_field_;
+  Lubrication lubrication_;
   ConstrainedFactor<double> factor_;
 
   // Strains are the first five of every sphere's interior rows; higher moments are at rest.

@@ -9,6 +9,17 @@ MobilityMatrix mobility_matrix(const Spheres& spheres, const HydroModel& model) 
   return far_field_mobility(spheres);
 }
 
-NearFieldResistance near_field_resistance(const Spheres&, const HydroModel&) { return {}; }
+Lubrication lubrication(const Spheres& spheres, const HydroModel& model) {
+  switch (model.rung) {
+    case Rung::fts_lubrication:
+      return {spheres, model.lubrication_range, PairMotion::all, model.gap_floor};
+    case Rung::fts_relative_lubrication:
+      return {spheres, model.lubrication_range, PairMotion::relative, model.gap_floor};
+    case Rung::fts:
+    case Rung::multipole:
+      break;
+  }
+  return {};
+}
 
 }  // namespace crumble

@@ -2,6 +2,8 @@
 // spheres and larger ones grown by a fixed rule.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <random>
 
 #include "common/hydro/spheres.hpp"
@@ -53,5 +55,53 @@ inline Spheres random_spheres(int n, double side, unsigned seed, double distance
   }
   return s;
 }
+
+// A connected cluster of unit spheres: every new one touches one, two or three of those present and overlaps none. Of
+// `choices` free places at a distance from the centre between `inner` and `outer`, the innermost is taken.
+struct Growth {
+  int n = 85;
+  double inner = 0, outer = 1e9;
+  int choices = 10;
+  double single = 0;  // fraction of spheres that touch one sphere only (two otherwise)
+  unsigned seed = 1;
+};
+
+inline Spheres grown(const Growth& g) {
+  std::mt19937_64 engine(g.seed);
+  const auto uniform = [&] { return static_cast<double>(engine() >> 11) * 0x1p-53; };
+  const auto direction = [&] {
+    const double z = 2 * uniform() - 1, phi = 2 * 3.14159265358979323846 * uniform(), s = std::sqrt(1 - z * z);
+    return Vector3(s * std::cos(phi), s * std::sin(phi), z);
+  };
+  std::vector<Vector3> x = {Vector3(std::max(g.inner, 0.0) + 1e-9, 0, 0)};
+  while (static_cast<int>(x.size()) < g.n) {
+    std::vector<Vector3> places;
+    const bool one = x.size() < 2 || uniform() < g.single;
+    for (int attempts = 0; static_cast<int>(places.size()) < g.choices && attempts < 100000; ++attempts) {
+      const auto pick = [&] { return x[static_cast<std::size_t>(uniform() * static_cast<double>(x.size()))]; };
+      const Vector3 first = pick(), second = pick(), axis = second - first;
+      Vector3 place = first + 2 * direction();
+      if (!one) {
+        const double half = axis.norm() / 2;
+        if (half < 0.5 || half > 1.99) continue;
+        Vector3 sideways = direction();
+        sideways -= axis * (axis.dot(sideways) / axis.squaredNorm());
+        place = first + axis / 2 + sideways.normalized() * std::sqrt(4 - half * half);
+      }
+      if (place.norm() < g.inner || place.norm() > g.outer) continue;
+      bool free = true;
+      for (const Vector3& other : x) free = free && (place - other).norm() > 2 * (1 - 1e-9);
+      if (free) places.push_back(place);
+    }
+    if (places.empty()) continue;
+    x.push_back(*std::min_element(places.begin(), places.end(),
+                                  [](const Vector3& a, const Vector3& b) { return a.norm() < b.norm(); }));
+  }
+  return unit_spheres(x);
+}
+
+// As the dried agglomerates of the paper in number and coordination: about 4.1 and 3.3.
+inline Spheres compact_85(unsigned seed = 1) { return grown({85, 0, 1e9, 12, 0, seed}); }
+inline Spheres hollow_115(unsigned seed = 1) { return grown({115, 3.5, 7, 1, 0.35, seed}); }
 
 }  // namespace crumble::testing
