@@ -62,6 +62,11 @@ PairMatrix two_sphere_pair(const Eigen::Vector3d& e, double a, const ResistanceS
     add_blocks(R, s, 1 - s, t, a, f.XA12, f.YA12, f.YB12, f.XC12, f.YC12, f.XG12, f.YG12, f.YH12, f.XM12, f.YM12,
                f.ZM12);
   }
+  // Unequal spheres: XA12 and its like were interpolated twice, at a2/a1 and at a1/a2.
+  const Eigen::Matrix<double, 11, 11> coupling =
+      (R.topRightCorner<11, 11>() + R.bottomLeftCorner<11, 11>().transpose()) / 2;
+  R.topRightCorner<11, 11>() = coupling;
+  R.bottomLeftCorner<11, 11>() = coupling.transpose();
   return R;
 }
 

@@ -55,6 +55,33 @@ inline Location locate(double xi) {
   return {k, (2 * log_gap - log_border[k] - log_border[k + 1]) / (log_border[k + 1] - log_border[k]), log_gap};
 }
 
+// Unequal spheres: in each segment and for each of two ranges of the radius ratio (0.1 ... 1 and 1 ... 10) the
+// Chebyshev coefficients of above are themselves Chebyshev series in lg(ratio), of a degree that falls with the gap
+// degree. Scalars are divided by `self_scale` first, so that both spheres' scalars are of order one.
+inline constexpr double smallest_ratio = 0.1, largest_ratio = 10;
+inline constexpr int ratio_ranges = 2;
+inline constexpr int ratio_degree = 12;  // at most
+
+// Argument of the Chebyshev polynomials in the ratio, -1 at equal spheres in both ranges.
+inline double ratio_argument(double ratio) { return 2 * std::abs(std::log10(ratio)) - 1; }
+
+// Scale of scalar k of a sphere of radius a1 beside one of radius a2: what positive definiteness bounds its far-field
+// value by, a^(1/2) for each force and a^(3/2) for each torque or stresslet that it couples.
+struct SelfScale {
+  double one[3], pair[3];  // by order: A; B and G; C, H and M. one: f11, pair: f12
+  SelfScale(double a1, double a2) : one{a1, a1 * a1, a1 * a1 * a1}, pair{} {
+    const double root = std::sqrt(a1 * a2);
+    pair[0] = root;
+    pair[1] = a1 * root;
+    pair[2] = a1 * a2 * root;
+  }
+  double of(int k) const {
+    constexpr int order[ResistanceScalars::count / 2] = {0, 0, 1, 2, 2, 1, 1, 2, 2, 2, 2};
+    return k % 2 == 0 ? one[order[k / 2]] : pair[order[k / 2]];
+  }
+};
+
 using Coefficients = std::array<std::array<std::array<double, columns>, degree + 1>, segments.size()>;
+using RowCounts = std::array<std::array<std::array<int, degree + 1>, segments.size()>, ratio_ranges>;
 
 }  // namespace crumble::two_sphere
