@@ -23,18 +23,16 @@ struct Closed {
   double compression_max = 0;                 // largest compression, in F_po, positive
   double largest_move = 0;                    // farthest that a particle was moved, m
   int iterations = 0;
-  bool converged = false;  // the residual is at round-off or at its least
+  bool converged = false;  // the residual is at round-off, or no short move lessens it by much
 };
 
 // Moves the particles until every listed pair has the gap at which its JKR force is zero:
 //     |x_j - x_i| = a_i + a_j + h_eq(i, j)
-// by Gauss-Newton steps of least norm, damped (Levenberg-Marquardt) where they are long:
-//     dx = -J^T (J J^T + lambda)^-1 C,     C residuals, J = dC/dx, sparse Cholesky of the contacts' matrix
-// Trees and every network without redundant contacts are closed to round-off. In a hyperstatic one the sum of squared
-// residuals is least; what remains is self-stress, and is reported. A contact that even so is open beyond the gap where
-// JKR ends cannot exist: the most open one of its neighbourhood is dropped and the rest closed again, until none is.
-// The centre of the positions stays. Throws std::invalid_argument for wrong indices, repeated pairs and coincident
-// centres, naming them.
+// by the least-squares projection of projection.hpp. Trees and every network without redundant contacts are closed to
+// round-off. In a hyperstatic one what remains is self-stress, and is reported. A contact that even so is open beyond
+// the gap where JKR ends cannot exist: the most open one of its neighbourhood is dropped and the rest closed again,
+// until none is. The centre of the positions stays. Throws std::invalid_argument for wrong indices, repeated pairs and
+// coincident centres, naming them.
 Closed close_contacts(const Particles& particles, const Frame& frame, const Material& material);
 
 }  // namespace crumble

@@ -28,6 +28,14 @@ double mean(auto first, auto last) { return std::accumulate(first, last, 0.0) / 
 
 }  // namespace
 
+double mean_radius(const Particles& particles) {
+  if (particles.size() == 0) throw std::invalid_argument("morphology: no particles");
+  const double first = particles.radius.front();
+  double difference = 0;
+  for (double a : particles.radius) difference += a - first;
+  return first + difference / static_cast<double>(particles.size());
+}
+
 Vector3 centre_of_mass(Positions position, Numbers mass) {
   require_same_length(position, mass, "mass");
   Vector3 moment = Vector3::Zero();

@@ -12,6 +12,9 @@
 
 namespace crumble {
 
+// Arithmetic mean, m; exact where all radii are equal.
+double mean_radius(const Particles& particles);
+
 Vector3 centre_of_mass(std::span<const Vector3> position, std::span<const double> mass);
 
 // Distances of the particle centres from the centre of mass, ascending. The k-th (from 1) of N is where the cumulative

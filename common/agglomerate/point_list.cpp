@@ -260,12 +260,12 @@ PointList read_points(const std::string& file) {
   const std::string ending = lower(std::filesystem::path(file).extension().string());
   const bool is_xyz = ending == ".xyz" || ending == ".extxyz";
   if (!is_xyz && ending != ".csv") {
-    throw PointListError(file + ": expected a name that ends with .csv, .xyz or .extxyz");
+    throw PointListOpenError(file + ": expected a name that ends with .csv, .xyz or .extxyz");
   }
   std::error_code problem;
-  if (std::filesystem::is_directory(file, problem)) throw PointListError(file + ": is a directory");
+  if (std::filesystem::is_directory(file, problem)) throw PointListOpenError(file + ": is a directory");
   std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw PointListError(file + ": cannot be opened for reading");
+  if (!stream) throw PointListOpenError(file + ": cannot be opened for reading");
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   return is_xyz ? parse_xyz(text, file) : parse_csv(text, file);
 }

@@ -15,6 +15,11 @@ struct PointListError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// The file cannot be read at all.
+struct PointListOpenError : PointListError {
+  using PointListError::PointListError;
+};
+
 struct PointList {
   std::string file;               // as messages call it
   std::vector<Vector3> position;  // in the file's unit

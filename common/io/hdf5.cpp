@@ -257,6 +257,12 @@ void Object::set_attribute(std::string_view name, std::string_view value) {
   write_attribute(name, text_type().get(), {}, true, &pointer);
 }
 
+void Object::set_fixed_text_attribute(std::string_view name, std::string_view value) {
+  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  H5Tset_size(type.get(), value.size());
+  write_attribute(name, type.get(), {}, true, value.data());
+}
+
 template <class T>
 void Object::set_attribute(std::string_view name, std::span<const T> values, bool scalar) {
   write_attribute(name, native(type_of<T>()), {values.size()}, scalar, values.data());

@@ -56,6 +56,7 @@ class Object {
   std::vector<T> attribute(std::string_view name) const;
   void set_text_attribute(std::string_view name, const std::vector<std::string>& values);  // [] of strings
   void set_attribute(std::string_view name, std::string_view value);                       // one string
+  void set_fixed_text_attribute(std::string_view name, std::string_view value);  // for readers that want fixed length
   template <class T>
   void set_attribute(std::string_view name, std::span<const T> values, bool scalar = false);
   void set_reference_attribute(std::string_view name, std::string_view target);  // object reference

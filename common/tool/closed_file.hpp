@@ -1,0 +1,23 @@
+// What import and scale have in common: an agglomerate with freshly closed contacts, told and written.
+#pragma once
+
+#include <iosfwd>
+#include <optional>
+#include <string>
+
+#include "common/agglomerate/closing.hpp"
+#include "common/io/provenance.hpp"
+
+namespace crumble::tool {
+
+// Self-stress that remains, contacts that were lost and strangers that overlap, in words.
+void tell(std::ostream& out, const Particles& particles, const Closed& closed);
+
+// Throws if the closing did not converge: then there is no result.
+void write_closed(const std::string& file, const Particles& particles, const Closed& closed,
+                  const Provenance& provenance, const std::string& settings, std::optional<double> scale);
+
+// The material as a TOML section, for the file's record of what it was made with.
+std::string material_text(const Material& material);
+
+}  // namespace crumble::tool

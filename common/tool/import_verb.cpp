@@ -1,0 +1,44 @@
+#include <fmt/format.h>
+
+#include <ostream>
+
+#include "common/agglomerate/import.hpp"
+#include "common/io/errors.hpp"
+#include "common/io/file_errors.hpp"
+#include "common/tool/closed_file.hpp"
+#include "common/tool/verbs.hpp"
+
+namespace crumble::tool {
+namespace {
+
+std::string settings(const ImportOptions& how) {
+  std::string text =
+      fmt::format("[import]\nunit = {:e}  # m\ncontact_tolerance = {}\n", how.unit, how.contact_tolerance);
+  if (how.radius) text += fmt::format("radius = {}  # m\n", *how.radius);
+  return text + "\n" + material_text(how.material) + fmt::format("density = {}  # kg/m^3\n", how.material.density);
+}
+
+}  // namespace
+
+int import_file(const ImportFileOptions& options, const Typed& typed, std::ostream& out) {
+  Imported result;
+  std::size_t frames = 1;
+  try {
+    const PointList points = read_points(options.input);
+    frames = static_cast<std::size_t>(points.frames);
+    result = import_points(points, options.how);
+  } catch (const PointListOpenError& error) {
+    throw OpenError(std::string("agglomerate: ") + error.what());
+  } catch (const PointListError& error) {
+    throw FormatError(error.what());
+  }
+  const auto provenance = make_provenance("agglomerate", typed, 0, "none", options.input);
+  write_closed(options.output, result.particles, result.closed, provenance, settings(options.how), std::nullopt);
+  out << fmt::format("{} -> {}: {} spheres{}, {} pairs taken as contacts\n", options.input, options.output,
+                     result.particles.size(), frames > 1 ? fmt::format(" (the last of {} frames)", frames) : "",
+                     result.touching);
+  tell(out, result.particles, result.closed);
+  return 0;
+}
+
+}  // namespace crumble::tool
