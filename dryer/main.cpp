@@ -43,7 +43,7 @@ void advance(DryingRun& run, ProgressPrinter& progress) {
 }
 
 DryingOutcome run_companion(const DryingScene& scene, const CommandLine& line) {
-  ProgressPrinter progress(stderr, "error estimate", line.quiet);
+  ProgressPrinter progress(stderr, std::filesystem::path(line.output).stem().string() + ", error estimate", line.quiet);
   DryingRun run(scene, 2);
   while (!run.finished()) {
     advance(run, progress);

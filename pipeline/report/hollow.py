@@ -4,6 +4,7 @@ import json
 import math
 import statistics
 import sys
+import textwrap
 
 # What the paper gives for Pe -> infinity. Contacts: 185 in the first description, 183 in the evolution (coordination
 # 3.18 = 2 * 183 / 115).
@@ -13,7 +14,7 @@ PAPER = {"d_c_nm": "160", "h_c_over_d_c": "0.28", "contacts": "183-185", "coordi
 COLUMNS = [
     ("d_c_nm", "d_c nm", "{:.1f}", "d_c_relative", True),
     ("h_c_over_d_c", "h_c/d_c", "{:.3f}", "h_c_over_d_c", False),
-    ("contacts", "contacts", "{:.4g}", "contacts_relative", True),
+    ("contacts", "contacts", "{:.1f}", "contacts_relative", True),
     ("coordination", "coordination", "{:.2f}", "contacts_relative", True),
 ]
 
@@ -33,10 +34,14 @@ def error_cell(reports, mean, column):
     return "0" if error == 0 else "{:.1g}".format(error) if error < 0.1 else form.format(error)
 
 
+def one_run(value, column):
+    return str(value) if isinstance(value, int) else column[2].format(value)  # a count is whole, its mean is not
+
+
 def table(reports):
     rows = [["seed"] + [column[1] for column in COLUMNS] + ["steps", "wall s", "cpu s"]]
     for report in sorted(reports, key=lambda r: r["seed"]):
-        cells = [column[2].format(report["results"][column[0]]) for column in COLUMNS]
+        cells = [one_run(report["results"][column[0]], column) for column in COLUMNS]
         cost = [str(report["steps"]), f"{report['wall_s']:.2f}", f"{report['cpu_s']:.2f}"]
         rows.append([str(report["seed"])] + cells + cost)
     means = [statistics.fmean(r["results"][column[0]] for r in reports) for column in COLUMNS]
@@ -64,11 +69,13 @@ def notes(reports):
     overlap = largest_error(reports, "largest_overlap_over_a")
     if overlap is not None:
         out.append(f"largest overlap of two particles: {overlap:.2g} a")
+    keys_of = {}
     for key, error in first["errors"].items():
-        out.append(f"  {key}: {error['how']}")
+        keys_of.setdefault(error["how"], []).append(key)
+    out += [f"{', '.join(keys)}: {how}" for how, keys in keys_of.items()]
     for text in first["left_out"]:
         out.append(f"left out: {text}")
-    return out
+    return [line for text in out for line in textwrap.wrap(text, 110, subsequent_indent="    ")]
 
 
 def read(name):

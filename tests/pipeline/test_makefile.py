@@ -19,7 +19,7 @@ class MainJob(Sandbox):
         self.assertEqual(seeds, ["1", "2", "3", "4", "5"])
         (check,) = self.called("agglomerate")
         self.assertEqual(check, "agglomerate check " + " ".join(f"results/hollow-{s}.h5" for s in seeds))
-        self.assertRegex(done.stdout, r"(?m)^ *mean +160\.0 +0\.300 +173 +3\.00")
+        self.assertRegex(done.stdout, r"(?m)^ *mean +160\.0 +0\.300 +173\.0 +3\.00")
         self.assertRegex(done.stdout, r"(?m)^ *paper +160 +0\.28 +183-185 +3\.18$")
 
     def test_the_meaning_of_the_scene_is_said_once_and_every_message_of_a_run(self):

@@ -30,10 +30,10 @@ class Table(unittest.TestCase):
         return line.split()[1:]
 
     def test_mean_and_spread_are_over_the_seeds(self):
-        done = self.table(report(1, 150, 170), report(2, 160, 180), report(3, 170, 175))
+        done = self.table(report(1, 150, 170), report(2, 160.0, 180), report(3, 170, 175))
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(self.row(done, "mean"), ["160.0", "0.300", "175", "3.04", "4.50"])
-        self.assertEqual(self.row(done, "spread"), ["10.0", "0.000", "5", "0.09"])
+        self.assertEqual(self.row(done, "mean"), ["160.0", "0.300", "175.0", "3.04", "4.50"])
+        self.assertEqual(self.row(done, "spread"), ["10.0", "0.000", "5.0", "0.09"])
         self.assertEqual(self.row(done, "2"), ["160.0", "0.300", "180", "3.13", "200", "2.00", "1.50"])
 
     def test_the_error_is_the_largest_of_the_seeds_in_the_unit_of_its_column(self):
