@@ -41,7 +41,7 @@ class Table(unittest.TestCase):
         done = self.table(report(1, 150, 170, d_c_relative=-0.02, **errors),
                           report(2, 170, 170, d_c_relative=0.01, **errors))
         self.assertEqual(self.row(done, "error"), ["3.2", "0.002", "0", "0"])
-        self.assertIn("d_c_relative: by halving", done.stdout)
+        self.assertIn("d_c_relative, h_c_over_d_c, contacts_relative: by halving", done.stdout)
 
     def test_an_error_that_one_run_did_not_estimate_is_not_invented(self):
         done = self.table(report(1, 150, 170, d_c_relative=0.01), report(2, 150, 170, d_c_relative=None))
