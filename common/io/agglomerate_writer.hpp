@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -66,6 +67,8 @@ class AgglomerateWriter {
   struct Series {
     hdf5::Dataset step, time, value;
     double factor = 1;
+    std::optional<std::int64_t> last_step;
+    double last_time = 0;
     std::vector<std::int64_t> steps;
     std::vector<double> times, values;
   };

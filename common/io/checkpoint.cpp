@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include "common/io/hdf5.hpp"
+#include "common/io/in_child.hpp"
 
 namespace crumble {
 
@@ -32,25 +33,7 @@ void write_arrays(hdf5::File& file, const std::map<std::string, std::vector<T>>&
     file.create_dataset<T>("/restart/" + name, {values.size()}).write(std::span<const T>(values));
 }
 
-}  // namespace
-
-const std::vector<double>& Checkpoint::real(const std::string& name) const { return find(reals, name); }
-const std::vector<std::int64_t>& Checkpoint::integer(const std::string& name) const { return find(integers, name); }
-
-void save_checkpoint(const std::filesystem::path& path, const CheckpointOwner& owner, const Checkpoint& checkpoint) {
-  const std::filesystem::path temporary = path.string() + ".tmp";
-  hdf5::File file = hdf5::File::create(temporary);
-  hdf5::Group group = file.create_group("/restart");
-  group.set_attribute("program", std::string_view(owner.program));
-  group.set_attribute("version", std::string_view(owner.version));
-  file.write_text("/restart/scene", owner.scene);
-  write_arrays(file, checkpoint.reals);
-  write_arrays(file, checkpoint.integers);
-  file.close();
-  std::filesystem::rename(temporary, path);
-}
-
-Checkpoint load_checkpoint(const std::filesystem::path& path, const CheckpointOwner& owner) {
+Checkpoint read_restart(const std::filesystem::path& path, const CheckpointOwner& owner) {
   const hdf5::File file = hdf5::File::open(path);
   if (file.kind("/restart") != hdf5::Kind::group || file.kind("/restart/scene") != hdf5::Kind::dataset)
     throw ContentError(path.string() + ": not a checkpoint (no /restart)");
@@ -72,6 +55,29 @@ Checkpoint load_checkpoint(const std::filesystem::path& path, const CheckpointOw
     if (dataset.type() == hdf5::Type::int64) checkpoint.integers[name] = dataset.read<std::int64_t>();
   }
   return checkpoint;
+}
+
+}  // namespace
+
+const std::vector<double>& Checkpoint::real(const std::string& name) const { return find(reals, name); }
+const std::vector<std::int64_t>& Checkpoint::integer(const std::string& name) const { return find(integers, name); }
+
+void save_checkpoint(const std::filesystem::path& path, const CheckpointOwner& owner, const Checkpoint& checkpoint) {
+  const std::filesystem::path temporary = path.string() + ".tmp";
+  hdf5::File file = hdf5::File::create(temporary);
+  hdf5::Group group = file.create_group("/restart");
+  group.set_attribute("program", std::string_view(owner.program));
+  group.set_attribute("version", std::string_view(owner.version));
+  file.write_text("/restart/scene", owner.scene);
+  write_arrays(file, checkpoint.reals);
+  write_arrays(file, checkpoint.integers);
+  file.close();
+  std::filesystem::rename(temporary, path);
+}
+
+Checkpoint load_checkpoint(const std::filesystem::path& path, const CheckpointOwner& owner) {
+  in_child(path, [&] { return read_restart(path, owner), std::string(); });
+  return read_restart(path, owner);
 }
 
 }  // namespace crumble

@@ -1,6 +1,11 @@
 // What is written comes back, and nothing unfinished looks finished.
 #include <gtest/gtest.h>
 
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
 #include <fstream>
 #include <limits>
 
@@ -165,6 +170,27 @@ TEST(AgglomerateFile, ThousandsOfFramesAndNoContactsAreFine) {
   EXPECT_EQ(reader.frame_count(), 2000u);
   EXPECT_TRUE(reader.last_frame().contacts.empty());
   EXPECT_EQ(reader.last_frame().position[0].x(), reader.frame(1999).position[0].x());
+}
+
+// Ends the process, with 0 if the error came and nothing was left.
+[[noreturn]] void write_to_a_full_disk(const std::filesystem::path& path) {
+  std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit limit{100000, 100000};
+  setrlimit(RLIMIT_FSIZE, &limit);
+  try {
+    AgglomerateWriter writer(path, sample_particles(sample_size), sample_description());
+    for (int t = 0; t < 500; ++t) writer.append(sample_frame(sample_size, 1 + t), sample_observables(t));
+    writer.finish("dry");
+  } catch (const WriteError& error) {
+    std::fprintf(stderr, "refused: %s\n", error.what());
+    _exit(std::filesystem::exists(path) || std::filesystem::exists(path.string() + ".tmp") ? 2 : 0);
+  }
+  _exit(1);
+}
+
+TEST(AgglomerateFileDeathTest, FullDiskIsAWriteErrorAndLeavesNothing) {
+  const Folder folder;
+  EXPECT_EXIT(write_to_a_full_disk(folder / "a.h5"), testing::ExitedWithCode(0), "refused: ");
 }
 
 TEST(Provenance, ParentIsNamedRelativeToTheFileAndHashed) {
