@@ -3,6 +3,9 @@
 #pragma once
 
 #include <cmath>
+#include <fstream>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "clusters.hpp"
@@ -36,6 +39,29 @@ inline Bonds touching_pairs(const Spheres& s, double tolerance = 1e-6) {
       if ((s.position[j] - s.position[i]).norm() < (s.radius[i] + s.radius[j]) * (1 + tolerance))
         bonds.emplace_back(i, j);
   return bonds;
+}
+
+// A dried cluster of tests/hydro/dried with its bonds.
+struct DriedCluster {
+  Spheres spheres;
+  Bonds bonds;
+};
+
+inline DriedCluster dried_cluster(const std::string& name) {
+  std::ifstream file(CRUMBLE_SOURCE_DIR "/tests/hydro/dried/" + name + ".txt");
+  std::string comment;
+  std::getline(file, comment);
+  std::getline(file, comment);
+  std::size_t n = 0, bonds = 0;
+  file >> n >> bonds;
+  std::vector<Vector3> x(n);
+  DriedCluster cluster;
+  cluster.bonds.resize(bonds);
+  for (auto& p : x) file >> p[0] >> p[1] >> p[2];
+  for (auto& [i, j] : cluster.bonds) file >> i >> j;
+  if (!file) throw std::runtime_error("cannot read the dried cluster " + name);
+  cluster.spheres = unit_spheres(x);
+  return cluster;
 }
 
 // Normal force (tension positive) of every bond, a row, for balanced six-vectors of loads, a column each.
