@@ -64,6 +64,11 @@ ImplicitStep::BondState ImplicitStep::bond_state(const Contact& bond, const std:
   return s;
 }
 
+double ImplicitStep::surface_energy(std::size_t k, double r) const {
+  if (frozen_[k] >= 0) return frozen_[k] * r;
+  return capillary_energy(model_.droplet.surface_tension, state_.particles.radius[active_[k]], r - R_);
+}
+
 double ImplicitStep::energy(const std::vector<Vector6>& q) const {
   double total = 0;
   for (std::size_t k = 0; k < active_.size(); ++k) {
@@ -72,11 +77,7 @@ double ImplicitStep::energy(const std::vector<Vector6>& q) const {
     const double zeta = drag_coefficient(model_.viscosity, a);
     const double zeta_r = rotational_drag_coefficient(model_.viscosity, a) / (a * a);
     total += (zeta * q[k].head<3>().squaredNorm() + zeta_r * q[k].tail<3>().squaredNorm()) / (2 * dt_);
-    const double r = (state_.state.position[p] + q[k].head<3>()).norm();
-    if (R_ > 0 && r < R_ + a)
-      total += capillary_energy(model_.droplet.surface_tension, a, r - R_);
-    else if (R_ > 0)
-      total += capillary_energy(model_.droplet.surface_tension, a, a);
+    total += surface_energy(k, (state_.state.position[p] + q[k].head<3>()).norm());
   }
   for (const Contact& bond : state_.state.contacts) {
     const BondLaw& law = laws_(bond.i, bond.j);
@@ -99,16 +100,17 @@ void ImplicitStep::linearise_particle(std::size_t k, const Vector6& q) {
 
   const Vector3 x = state_.state.position[p] + q.head<3>();
   const double r = x.norm(), offset = r - R_;
-  const double F_c = R_ > 0 && r > 0 ? capillary_force(sigma, a, offset) : 0;
+  const bool held = frozen_[k] >= 0;
+  const double F_c = r == 0 ? 0 : held ? frozen_[k] : capillary_force(sigma, a, offset);
   if (F_c > 0) {
     const Vector3 e = x / r;
     gradient_[k].head<3>() += F_c * e;
     // F_c rises like the root of the immersion, so near first touch the tangent overshoots; the secant through the
     // origin never does. The tangent takes over once the iterates settle.
-    const double depth = offset + a, before = depth_[k];
-    const bool settled = std::abs(depth - before) < 0.3 * depth;
-    double slope = offset < 0 ? capillary_slope(sigma, a, offset) : 0;
-    if (offset < 0 && !settled) slope = std::max(slope, F_c / depth);
+    const double depth = offset + a;
+    const bool settled = std::abs(depth - depth_[k]) < 0.3 * depth;
+    double slope = held || offset > 0 ? 0 : capillary_slope(sigma, a, offset);
+    if (!held && offset < 0 && !settled) slope = std::max(slope, F_c / depth);
     depth_[k] = depth;
     H.topLeftCorner<3, 3>() +=
         slope * e * e.transpose() + F_c / std::max(r, 1e-3 * a) * (Matrix3::Identity() - e * e.transpose());
@@ -193,6 +195,12 @@ ImplicitStep::Outcome ImplicitStep::solve(double dt, double R, double tolerance)
   dt_ = dt;
   R_ = R;
   depth_.assign(active_.size(), 0);
+  frozen_.assign(active_.size(), 0);
+  for (std::size_t k = 0; k < active_.size() && R > 0; ++k) {
+    const double a = state_.particles.radius[active_[k]];
+    const double offset = (state_.state.position[active_[k]] + increment_[k].head<3>()).norm() - R;
+    frozen_[k] = offset > 0 ? capillary_force(model_.droplet.surface_tension, a, offset) : -1;
+  }
   Outcome outcome;
   if (active_.empty()) return {true, 0};
   double current = energy(increment_);
