@@ -6,6 +6,8 @@
 #include <Eigen/Geometry>
 #include <random>
 
+#include "common/hydro/far_field.hpp"
+
 namespace crumble {
 namespace {
 
@@ -127,6 +129,24 @@ TEST(TwoSpherePair, RigidMotionOfATouchingPairNeedsFiniteLoads) {
       previous = loads;
     }
   }
+}
+
+// The truncated (Galerkin) resistance is a lower bound of the exact one, with which it shares basis and signs, and
+// meets it as 1/s^6: the first multipole that it leaves out is induced as 1/s^3 and acts back as 1/s^3.
+TEST(TwoSpherePair, IsBoundedBelowByTheFarFieldAndTendsToIt) {
+  std::mt19937 random(5);
+  for (const Radii& a : radii)
+    for (const double gap : {1e-6, 1e-3, 0.1, 1.0, 10.0, 40.0}) {
+      const Vector3d r = (2 + gap) * random_direction(random);
+      const PairMatrix R = two_sphere_pair(r, a.one, a.two, 0);
+      const PairMatrix far = far_field_pair(r, a.one, a.two).inverse(), rest = R - far;
+      // 1e-8: truncation of the table for unequal spheres.
+      EXPECT_GT(rest.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff(), -1e-8 * far.norm())
+          << gap << " " << a.one;
+      if (gap >= 10) {
+        EXPECT_LT(rest.norm(), (3 * std::pow(2 + gap, -6) + 3e-9) * far.norm()) << gap << " " << a.one;
+      }
+    }
 }
 
 TEST(TwoSpherePair, RefusesCoincidentCentres) {
