@@ -27,10 +27,13 @@ struct Droplet {
   double front_speed(double R) const { return initial_radius * initial_radius / (2 * lifetime * R); }
 };
 
+// Whether the surface cuts the particle; a droplet that is inside the particle (r + R <= a) does not.
+inline bool surface_cuts(double a, double r, double R) { return r < R + a && r > R - a && r + R > a; }
+
 // Force on a particle that the surface cuts, towards the centre of the droplet:
 //   F_c = 2 pi sigma sqrt(a^2 - (r - R)^2)  for |r - R| <= a, else 0                      (paper, Eq. 8)
-// The equation is valid only while the surface cuts the particle; inside (r < R - a) and outside (r > R + a) there is
-// none. offset = r - R, m; result N >= 0.
+// The equation is valid only while the surface cuts the particle: inside (r < R - a) and outside (r > R + a) there is
+// none, nor where the last of the liquid is smaller than the particle and inside it. offset = r - R, m; result N >= 0.
 inline double capillary_force(double surface_tension, double a, double offset) {
   const double squared = (a - offset) * (a + offset);
   return squared > 0 ? 2 * std::numbers::pi * surface_tension * std::sqrt(squared) : 0;

@@ -64,9 +64,24 @@ ImplicitStep::BondState ImplicitStep::bond_state(const Contact& bond, const std:
   return s;
 }
 
-double ImplicitStep::surface_energy(std::size_t k, double r) const {
-  if (frozen_[k] >= 0) return frozen_[k] * r;
-  return capillary_energy(model_.droplet.surface_tension, state_.particles.radius[active_[k]], r - R_);
+double ImplicitStep::surface_energy(std::size_t k, const Vector3& translation) const {
+  if (!implicit_surface_[k]) return -held_[k].dot(translation);
+  const std::int32_t p = active_[k];
+  const double r = (state_.state.position[p] + translation).norm();
+  return capillary_energy(model_.droplet.surface_tension, state_.particles.radius[p], r - R_);
+}
+
+void ImplicitStep::choose_surface_forces() {
+  implicit_surface_.assign(active_.size(), false);
+  held_.assign(active_.size(), Vector3::Zero());
+  for (std::size_t k = 0; k < active_.size(); ++k) {
+    const double a = state_.particles.radius[active_[k]];
+    const Vector3 x = state_.state.position[active_[k]] + increment_[k].head<3>();
+    const double r = x.norm();
+    implicit_surface_[k] = R_ > a && r <= R_;
+    if (!implicit_surface_[k] && surface_cuts(a, r, R_))
+      held_[k] = -capillary_force(model_.droplet.surface_tension, a, r - R_) / r * x;
+  }
 }
 
 double ImplicitStep::energy(const std::vector<Vector6>& q) const {
@@ -77,7 +92,7 @@ double ImplicitStep::energy(const std::vector<Vector6>& q) const {
     const double zeta = drag_coefficient(model_.viscosity, a);
     const double zeta_r = rotational_drag_coefficient(model_.viscosity, a) / (a * a);
     total += (zeta * q[k].head<3>().squaredNorm() + zeta_r * q[k].tail<3>().squaredNorm()) / (2 * dt_);
-    total += surface_energy(k, (state_.state.position[p] + q[k].head<3>()).norm());
+    total += surface_energy(k, q[k].head<3>());
   }
   for (const Contact& bond : state_.state.contacts) {
     const BondLaw& law = laws_(bond.i, bond.j);
@@ -100,8 +115,7 @@ void ImplicitStep::linearise_particle(std::size_t k, const Vector6& q) {
 
   const Vector3 x = state_.state.position[p] + q.head<3>();
   const double r = x.norm(), offset = r - R_;
-  const bool held = frozen_[k] >= 0;
-  const double F_c = r == 0 ? 0 : held ? frozen_[k] : capillary_force(sigma, a, offset);
+  const double F_c = implicit_surface_[k] ? capillary_force(sigma, a, offset) : 0;
   if (F_c > 0) {
     const Vector3 e = x / r;
     gradient_[k].head<3>() += F_c * e;
@@ -109,13 +123,13 @@ void ImplicitStep::linearise_particle(std::size_t k, const Vector6& q) {
     // origin never does. The tangent takes over once the iterates settle.
     const double depth = offset + a;
     const bool settled = std::abs(depth - depth_[k]) < 0.3 * depth;
-    double slope = held || offset > 0 ? 0 : capillary_slope(sigma, a, offset);
-    if (!held && offset < 0 && !settled) slope = std::max(slope, F_c / depth);
+    double slope = std::max(capillary_slope(sigma, a, offset), 0.0);
+    if (!settled) slope = std::max(slope, F_c / depth);
     depth_[k] = depth;
-    H.topLeftCorner<3, 3>() +=
-        slope * e * e.transpose() + F_c / std::max(r, 1e-3 * a) * (Matrix3::Identity() - e * e.transpose());
+    H.topLeftCorner<3, 3>() += slope * e * e.transpose() + F_c / r * (Matrix3::Identity() - e * e.transpose());
   } else {
     depth_[k] = 0;
+    gradient_[k].head<3>() -= held_[k];
   }
   matrix_.add_diagonal(static_cast<std::int32_t>(k), H);
 }
@@ -195,12 +209,7 @@ ImplicitStep::Outcome ImplicitStep::solve(double dt, double R, double tolerance)
   dt_ = dt;
   R_ = R;
   depth_.assign(active_.size(), 0);
-  frozen_.assign(active_.size(), 0);
-  for (std::size_t k = 0; k < active_.size() && R > 0; ++k) {
-    const double a = state_.particles.radius[active_[k]];
-    const double offset = (state_.state.position[active_[k]] + increment_[k].head<3>()).norm() - R;
-    frozen_[k] = offset > 0 ? capillary_force(model_.droplet.surface_tension, a, offset) : -1;
-  }
+  choose_surface_forces();
   Outcome outcome;
   if (active_.empty()) return {true, 0};
   double current = energy(increment_);

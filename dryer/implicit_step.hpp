@@ -18,8 +18,8 @@ namespace crumble {
 // which therefore never rises; terms of negative curvature are left out of the matrix, so it is positive definite for
 // every step length. Tangential motion is measured at the normals of the start of the step: first order in dt, as
 // backward Euler is. Limits that depend on load are those of the start of the step. So is, at the predicted position,
-// the capillary force on a particle that is more than half out of the liquid: it falls as the particle moves out, which
-// an explicit force follows without harm and Newton's method does not.
+// the capillary force on a particle that is more than half out of the liquid, and on any while R < a: it falls as the
+// particle moves out, which an explicit force follows without harm and Newton's method does not.
 class ImplicitStep {
  public:
   ImplicitStep(const DryingModel& model, const Agglomerate& state, const BondLaws& laws);
@@ -42,7 +42,8 @@ class ImplicitStep {
   Vector3 rotation(std::int32_t particle) const;  // rad
 
  private:
-  double surface_energy(std::size_t k, double r) const;
+  double surface_energy(std::size_t k, const Vector3& translation) const;
+  void choose_surface_forces();
   double energy(const std::vector<Vector6>& q) const;
   void linearise(const std::vector<Vector6>& q);
   void linearise_particle(std::size_t k, const Vector6& q);
@@ -56,8 +57,9 @@ class ImplicitStep {
   double dt_ = 0, R_ = 0;
   std::vector<std::int32_t> active_, slot_;  // slot_: particle -> index among the active, or -1
   std::vector<Vector6> increment_, gradient_, correction_, trial_;
-  std::vector<double> frozen_;  // capillary force held during the step, N; negative: implicit
-  std::vector<double> depth_;   // immersion of the surface at the last iterate, per active particle
+  std::vector<char> implicit_surface_;  // whether the capillary force is that at the end of the step
+  std::vector<Vector3> held_;           // else the force held during the step, N
+  std::vector<double> depth_;           // immersion of the surface at the last iterate, per active particle
   BlockCholesky matrix_;
 };
 

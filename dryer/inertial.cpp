@@ -77,8 +77,9 @@ void Inertial::evaluate_forces() {
   activity_.front_at(R);
   for (const std::int32_t p : activity_.active()) {
     const double r = f.position[p].norm();
-    const double F_c = R > 0 ? capillary_force(model_.droplet.surface_tension, radius[p], r - R) : 0;
-    f.force[p] = r > 0 ? Vector3(-F_c / r * f.position[p]) : Vector3::Zero();
+    f.force[p].setZero();
+    if (surface_cuts(radius[p], r, R))
+      f.force[p] = -capillary_force(model_.droplet.surface_tension, radius[p], r - R) / r * f.position[p];
     f.torque[p].setZero();
   }
   for (const Contact& bond : f.contacts) {

@@ -35,11 +35,12 @@ DryingRun::DryingRun(const DryingScene& scene, double coarsening, Agglomerate st
 DryingRun::Surface DryingRun::surface() const {
   Surface surface;
   const double R = droplet_radius();
-  for (std::size_t p = 0; p < state_.particles.size() && R > 0; ++p) {
-    const double force = capillary_force(scene_.model.droplet.surface_tension, state_.particles.radius[p],
-                                         state_.state.position[p].norm() - R);
-    if (force > 0) ++surface.wetted;
-    surface.largest_force = std::max(surface.largest_force, force);
+  for (std::size_t p = 0; p < state_.particles.size(); ++p) {
+    const double a = state_.particles.radius[p], r = state_.state.position[p].norm();
+    if (!surface_cuts(a, r, R)) continue;
+    ++surface.wetted;
+    surface.largest_force =
+        std::max(surface.largest_force, capillary_force(scene_.model.droplet.surface_tension, a, r - R));
   }
   return surface;
 }

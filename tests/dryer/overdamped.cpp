@@ -102,16 +102,24 @@ TEST(Overdamped, ten_times_too_long_steps_change_the_result_by_no_more_than_its_
   EXPECT_NEAR(static_cast<double>(c.contacts), static_cast<double>(f.contacts), 2);
 }
 
-TEST(Overdamped, contact_torn_open_and_closed_again_is_one_bond_with_a_new_history) {
+TEST(Overdamped, contact_torn_open_is_lost_and_made_again_only_at_zero_gap_without_its_history) {
   const DryingModel model = hollow();
   const BondLaw law(model.contact, model.material, a, a);
   Agglomerate s = spheres({Vector3(0, 0, 0), Vector3(2 * a + law.lost_gap() * 1.01, 0, 0)});
   s.state.contacts = {
       Contact{.i = 0, .j = 1, .gap = law.lost_gap() * 0.99, .sliding = Vector3(0, 1e-11, 0), .born = 7}};
   Overdamped integrator(model, s, {});
-  for (int k = 0; k < 5; ++k) integrator.step(model.droplet.lifetime);
+  integrator.step(1e-16);
   EXPECT_EQ(integrator.statistics().contacts_lost, 1);
   EXPECT_TRUE(s.state.contacts.empty());
+  s.state.position[1].x() = 2 * a + 0.1 * law.lost_gap();  // near, but not touching
+  integrator.step(2e-16);
+  EXPECT_TRUE(s.state.contacts.empty());
+  s.state.position[1].x() = 2 * a - 1e-16;
+  integrator.step(3e-16);
+  ASSERT_EQ(s.state.contacts.size(), 1u);
+  EXPECT_EQ(s.state.contacts[0].sliding.norm(), 0);
+  EXPECT_EQ(s.state.contacts[0].born, s.state.step);
 }
 
 TEST(Overdamped, unequal_spheres_dry_too) {
