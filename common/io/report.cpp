@@ -17,6 +17,12 @@ void require_finite(const std::string& name, double x) {
   if (!std::isfinite(x)) throw std::runtime_error(fmt::format("report: '{}' is {}, not a finite number", name, x));
 }
 
+// "shear.n_max" -> the entry n_max of the object shear.
+nlohmann::ordered_json& place(nlohmann::ordered_json& results, const std::string& name) {
+  const auto dot = name.find('.');
+  return dot == std::string::npos ? results[name] : place(results[name.substr(0, dot)], name.substr(dot + 1));
+}
+
 double seconds(const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); }
 
 }  // namespace
@@ -57,7 +63,7 @@ std::string Report::json() const {
   out["steps"] = steps;
   out["results"] = nlohmann::ordered_json::object();
   for (const auto& [name, value] : results_)
-    std::visit([&, &key = name](const auto& x) { out["results"][key] = x; }, value);
+    std::visit([&, &key = name](const auto& x) { place(out["results"], key) = x; }, value);
   out["errors"] = nlohmann::ordered_json::object();
   for (const auto& e : errors_) {
     auto& entry = out["errors"][e.name];

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -14,14 +15,17 @@ namespace crumble {
 // Begin it where the work begins: wall time counts from there, CPU time and peak memory are the whole process's.
 class Report {
  public:
-  using Value = std::variant<std::int64_t, double, std::string, std::vector<double>>;
+  // Nothing (null in JSON) says that there is no such number.
+  using Value =
+      std::variant<std::nullptr_t, std::int64_t, double, std::string, std::vector<double>, std::vector<std::int64_t>>;
 
   Report(std::string program, std::string version, std::string scene, std::optional<std::int64_t> seed);
 
   std::int64_t steps = 0;
   std::vector<std::string> left_out;  // what the scene made unnecessary, and why that is allowed
 
-  // Names carry the unit where there is one ("d_c_nm"). A value that is not finite throws.
+  // Names carry the unit where there is one ("d_c_nm"); a dot puts a value into a group ("shear.n_max_orbit"). A value
+  // that is not finite throws.
   void result(const std::string& name, Value value);
   // `value` is the error in the unit of the name ("d_c_relative"); nothing if it was not estimated. `how` says in words
   // how it was estimated, or why not.

@@ -102,14 +102,19 @@ constexpr auto rows = std::to_array<Entry>({
   {"/response/pair", dataset, i32, "P 2", "", none, "contacts analysed"},
   {"/response/load", dataset, f64, "P 6 5", "any", none, "force and torque on j for each unit strain rate, body frame; "
    "orthonormal basis of the symmetric traceless tensors"},
-  {"/response/velocity", dataset, f64, "6 5", "any", none, "rigid velocity and rotation for each unit strain rate"},
+  {"/response/velocity", dataset, f64, "6 5", "any", none, "velocity of the centre of mass and rotation, relative to the flow there, for each unit strain rate; of the largest connected part"},
   {"/response/basis", dataset, f64, "5 3 3", "", none, "the five basis tensors"},
+  {"/response/body_velocity", dataset, f64, "B 6 5", "any", none, "the same for each connected part, largest first"},
+  {"/response/body_drag", dataset, f64, "B 6 6", "any", none, "force and torque about the centre of mass against unit velocity and rotation, of each part"},
+  {"/response/error", dataset, f64, "", "", none, "estimated relative error of the largest tension"},
+  {"/response@hydrodynamics", attribute, str, "", "", none, "method by which the loads of the fluid were found"},
   {"/flows/<name>/gradient", dataset, f64, "3 3", "", none, "velocity gradient for unit shear rate, row i, column j: du_i/dx_j"},
   {"/flows/<name>/normal_force", dataset, f64, "P", "N", none, "tension of each contact at its worst instant"},
   {"/flows/<name>/radial_position", dataset, f64, "P", "nm", none, "distance of each contact from the centre of mass"},
   {"/flows/<name>/time", dataset, f64, "K", "s", none, "instants of the orbit or history"},
   {"/flows/<name>/max_tension", dataset, f64, "K", "N", none, "largest tension at each instant", "N_max", ""},
   {"/flows/<name>/orientation", dataset, f64, "K 4", "", none, "of the body at each instant, scalar part first"},
+  {"/flows/<name>/share", dataset, f64, "K", "", none, "share of random starts that end in each orientation"},
   {"/flows/<name>/critical_stress", dataset, f64, "", "Pa", none, "viscosity times shear rate that breaks a contact"},
 
   // Breakup

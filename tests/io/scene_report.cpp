@@ -19,6 +19,9 @@ Report filled() {
   report.result("d_c_nm", 160.1 + 1e-13);
   report.result("law", std::string("jkr"));
   report.result("semi_axes_nm", std::vector<double>{80.5, 79, 78.25});
+  report.result("shear.n_max", 3.25);
+  report.result("shear.contact", std::vector<std::int64_t>{4, 7});
+  report.result("shear.critical_stress_pa", nullptr);
   report.error("d_c_relative", 1.5e-3, "step halving");
   report.error("contacts_relative", {}, "not estimated: paths diverge");
   report.left_out.push_back("Brownian motion: D = 0");
@@ -37,6 +40,9 @@ TEST(Report, holds_what_every_program_reports) {
   EXPECT_EQ(json.at("results").at("contacts"), 173);
   EXPECT_EQ(json.at("results").at("d_c_nm").get<double>(), 160.1 + 1e-13);  // all digits
   EXPECT_EQ(json.at("results").at("semi_axes_nm").at(2), 78.25);
+  EXPECT_EQ(json.at("results").at("shear").at("n_max"), 3.25);
+  EXPECT_EQ(json.at("results").at("shear").at("contact").at(1), 7);
+  EXPECT_TRUE(json.at("results").at("shear").at("critical_stress_pa").is_null());
   EXPECT_EQ(json.at("errors").at("d_c_relative").at("value"), 1.5e-3);
   EXPECT_EQ(json.at("errors").at("d_c_relative").at("how"), "step halving");
   EXPECT_TRUE(json.at("errors").at("contacts_relative").at("value").is_null());

@@ -1,0 +1,82 @@
+#include "rigidstress/analysis.hpp"
+
+#include <fmt/format.h>
+
+#include "common/io/errors.hpp"
+
+namespace crumble {
+
+namespace {
+
+void refuse_fragments(const std::vector<Body>& parts, const std::string& name) {
+  if (parts.size() < 2) return;
+  std::string sizes;
+  for (std::size_t k = 0; k < std::min<std::size_t>(parts.size(), 8); ++k)
+    sizes += fmt::format("{}{}", k ? ", " : "", parts[k].particle.size());
+  if (parts.size() > 8) sizes += ", ...";
+  throw InputError(
+      fmt::format("{}: {} pieces that no contact connects, of {} particles (particle {} belongs to the "
+                  "second): not one rigid body. structure.fragments = \"each\" analyses each by itself",
+                  name, parts.size(), sizes, parts[1].particle.front()));
+}
+
+}  // namespace
+
+const BodyResult& Analysis::weakest() const {
+  std::size_t weakest = 0;
+  for (std::size_t k = 1; k < bodies.size(); ++k)
+    if (bodies[k].worst.use > bodies[weakest].worst.use) weakest = k;
+  return bodies[weakest];
+}
+
+Analysis analyse(Prepared prepared, const std::string& name, const StressScene& scene, const Say& say) {
+  Analysis a;
+  a.prepared = std::move(prepared);
+  std::vector<Body> parts = bodies(a.prepared);
+  if (!scene.each_fragment) refuse_fragments(parts, name);
+  bool every_error_known = true;
+  for (Body& part : parts) {
+    BodyResult b;
+    b.centre = centre_of(a.prepared, part);
+    const Network network = [&] {
+      try {
+        return network_of(a.prepared, part, scene.joint, scene.material);
+      } catch (const Mechanism& mechanism) {
+        throw InputError(name + ": " + mechanism.what());
+      }
+    }();
+    b.bridges = network.bridges();
+    Judged judged = judged_response(network, b.centre, scene.hydrodynamics, say);
+    b.loaded = {std::move(judged.response), pull_off_of(a.prepared, part, scene.material)};
+    b.body = std::move(part);
+    if (a.bodies.empty()) {
+      a.method = judged.method;
+      a.how = judged.how;
+    } else if (judged.method != a.method && !b.body.contact.empty()) {
+      a.method += ", " + judged.method;
+    }
+    every_error_known = every_error_known && judged.error;
+    if (judged.error) a.error = std::max(a.error.value_or(0), *judged.error);
+    a.bodies.push_back(std::move(b));
+  }
+  if (!every_error_known) a.error.reset();
+  return a;
+}
+
+void run_flows(Analysis& analysis, const StressScene& scene) {
+  for (BodyResult& b : analysis.bodies) {
+    if (!b.loaded.pull_off.empty()) {
+      const WorstContact worst =
+          worst_contact(b.loaded.response.tension, b.loaded.pull_off, planar_elongation_gradient());
+      b.worst = {worst.contact, worst.tension, worst.tension / b.loaded.pull_off[worst.contact]};
+    }
+    if (scene.elongation) b.elongation = straining(b.loaded, planar_elongation_gradient(), scene.straining);
+    if (scene.uniaxial) b.uniaxial = straining(b.loaded, uniaxial_gradient(), scene.straining);
+    if (scene.biaxial) b.biaxial = straining(b.loaded, biaxial_gradient(), scene.straining);
+    if (scene.shear) b.shear = shear(b.loaded, scene.orbit);
+    if (scene.history)
+      b.history = follow_history(b.loaded, *scene.history, scene.history_orbits, scene.seed, scene.orbit.tolerance);
+  }
+}
+
+}  // namespace crumble

@@ -1,0 +1,167 @@
+#include "rigidstress/history.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <string_view>
+
+#include "common/io/errors.hpp"
+
+namespace crumble {
+
+namespace {
+
+std::string_view trimmed(std::string_view s) {
+  const auto first = s.find_first_not_of(" \t\r\""), last = s.find_last_not_of(" \t\r\"");
+  return first == std::string_view::npos ? std::string_view{} : s.substr(first, last - first + 1);
+}
+
+std::vector<std::string_view> fields(std::string_view line) {
+  std::vector<std::string_view> result;
+  for (std::size_t from = 0;;) {
+    const auto comma = line.find(',', from);
+    result.push_back(trimmed(line.substr(from, comma - from)));
+    if (comma == std::string_view::npos) return result;
+    from = comma + 1;
+  }
+}
+
+std::string unit_of(std::string_view name) {
+  const auto open = name.find('['), close = name.find(']');
+  if (open == std::string_view::npos || close == std::string_view::npos || close < open) return "";
+  return std::string(trimmed(name.substr(open + 1, close - open - 1)));
+}
+
+void check_header(const std::vector<std::string_view>& names, const std::string& where) {
+  if (names.size() != 10)
+    throw InputError(
+        fmt::format("{}: the header has {} columns, ten are needed: time [s] and nine components of the "
+                    "velocity gradient [1/s]",
+                    where, names.size()));
+  for (std::size_t k = 0; k < 10; ++k) {
+    const std::string unit = unit_of(names[k]);
+    const bool right = k == 0 ? unit == "s" : unit == "1/s" || unit == "s-1" || unit == "s^-1";
+    if (!right)
+      throw InputError(
+          fmt::format("{}: column {} '{}' must carry its unit, {}", where, k + 1, names[k], k == 0 ? "[s]" : "[1/s]"));
+  }
+}
+
+double rate_of(const Eigen::Matrix3d& gradient) {
+  const Eigen::Matrix3d E = 0.5 * (gradient + gradient.transpose());
+  return std::sqrt(2 * E.squaredNorm());
+}
+
+struct Row {
+  double time;
+  Eigen::Matrix3d gradient;
+};
+
+Row parse_row(const std::vector<std::string_view>& texts, const std::string& where) {
+  if (texts.size() != 10) throw InputError(fmt::format("{}: {} columns, ten are needed", where, texts.size()));
+  double value[10];
+  for (std::size_t k = 0; k < 10; ++k) {
+    const auto [end, error] = std::from_chars(texts[k].data(), texts[k].data() + texts[k].size(), value[k]);
+    if (error != std::errc{} || end != texts[k].data() + texts[k].size() || !std::isfinite(value[k]))
+      throw InputError(fmt::format("{}: column {}: '{}' is not a finite number", where, k + 1, texts[k]));
+  }
+  Row row{value[0], {}};
+  for (int k = 0; k < 9; ++k) row.gradient(k / 3, k % 3) = value[k + 1];
+  const double trace = row.gradient.trace(), size = row.gradient.norm();
+  if (std::abs(trace) > 0.01 * size)
+    throw InputError(
+        fmt::format("{}: the trace of the velocity gradient is {:.3g} 1/s, {:.2g} of its norm: the fluid is "
+                    "incompressible, it must vanish (are the nine components in the order of the header?)",
+                    where, trace, std::abs(trace) / size));
+  row.gradient.diagonal().array() -= trace / 3;
+  return row;
+}
+
+}  // namespace
+
+GradientHistory GradientHistory::read(const std::string& file, double largest_step) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw InputError(file + ": cannot be opened");
+  std::stringstream text;
+  text << in.rdbuf();
+  return parse(text.str(), file, largest_step);
+}
+
+GradientHistory GradientHistory::parse(const std::string& text, const std::string& name, double largest_step) {
+  GradientHistory history;
+  std::vector<int> line_of;
+  std::istringstream in(text);
+  std::string line;
+  bool header = false;
+  for (int number = 1; std::getline(in, line); ++number) {
+    const auto content = trimmed(line);
+    if (content.empty() || content[0] == '#') continue;
+    const std::string where = fmt::format("{}:{}", name, number);
+    if (!header) {
+      check_header(fields(line), where);
+      header = true;
+      continue;
+    }
+    const Row row = parse_row(fields(line), where);
+    if (!history.time_.empty() && row.time <= history.time_.back())
+      throw InputError(fmt::format("{}: time {:g} s does not follow {:g} s of line {}: times must increase", where,
+                                   row.time, history.time_.back(), line_of.back()));
+    history.time_.push_back(row.time);
+    history.gradient_.push_back(row.gradient);
+    line_of.push_back(number);
+  }
+  if (history.time_.size() < 2) throw InputError(name + ": a history needs a header and at least two instants");
+
+  std::vector<double> intervals;
+  for (std::size_t k = 1; k < history.time_.size(); ++k) intervals.push_back(history.time_[k] - history.time_[k - 1]);
+  std::vector<double> sorted = intervals;
+  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
+  const double median = sorted[sorted.size() / 2];
+  for (std::size_t k = 0; k < intervals.size(); ++k) {
+    const double strain = intervals[k] * std::max(rate_of(history.gradient_[k]), rate_of(history.gradient_[k + 1]));
+    if (strain > largest_step)
+      throw InputError(
+          fmt::format("{}:{}: in the {:g} s since line {} the flow strains by {:.3g}, more than {:g}: too "
+                      "coarse to interpolate (is the time in s and the gradient in 1/s?)",
+                      name, line_of[k + 1], intervals[k], line_of[k], strain, largest_step));
+    if (intervals[k] > 10 * median)
+      throw InputError(fmt::format("{}:{}: a gap in time: {:g} s since line {}, where the median interval is {:g} s",
+                                   name, line_of[k + 1], intervals[k], line_of[k], median));
+  }
+  return history;
+}
+
+Eigen::Matrix3d GradientHistory::operator()(double time) const {
+  const auto after = std::upper_bound(time_.begin(), time_.end(), time);
+  if (after == time_.begin()) return gradient_.front();
+  if (after == time_.end()) return gradient_.back();
+  const auto k = static_cast<std::size_t>(after - time_.begin());
+  const double part = (time - time_[k - 1]) / (time_[k] - time_[k - 1]);
+  return (1 - part) * gradient_[k - 1] + part * gradient_[k];
+}
+
+double GradientHistory::largest_rate() const {
+  double largest = 0;
+  for (const Eigen::Matrix3d& g : gradient_) largest = std::max(largest, rate_of(g));
+  return largest;
+}
+
+HistoryResult follow_history(const LoadedBody& body, const GradientHistory& history, int orbits, std::uint64_t seed,
+                             double tolerance) {
+  HistoryResult result;
+  for (int k = 0; k < orbits; ++k) {
+    const Quaternion start = random_orientation(seed, static_cast<std::uint32_t>(k));
+    result.orbits.push_back(follow(
+        body, start, history.times(), [&](double t) { return history(t); }, tolerance));
+    const Orbit& orbit = result.orbits.back();
+    result.mean_peak_tension += orbit.peak.tension / orbits;
+    if (orbit.peak.use > result.orbits[result.worst_orbit].peak.use) result.worst_orbit = static_cast<std::size_t>(k);
+  }
+  return result;
+}
+
+}  // namespace crumble

@@ -1,0 +1,39 @@
+// A measured or computed velocity-gradient history, as a particle sees it on its way through a turbulent flow.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "rigidstress/flows.hpp"
+
+namespace crumble {
+
+// Gradients at instants, in between linear.
+class GradientHistory {
+ public:
+  // A CSV file: one header line of ten names, each with its unit in brackets, [s] for the time and [1/s] for the nine
+  // components in the order du_x/dx, du_x/dy, du_x/dz, du_y/dx, ...; lines that begin with # are skipped.
+  // Throws InputError, naming file and line, on: other units; a row without ten finite numbers; times that do not
+  // increase; a trace above 1 % of the gradient (the rest is removed); a gap in time, that is, an interval in which the
+  // flow would strain by more than `largest_step` or which is more than ten times the median interval.
+  static GradientHistory read(const std::string& file, double largest_step = 1);
+  static GradientHistory parse(const std::string& text, const std::string& name, double largest_step = 1);
+
+  Eigen::Matrix3d operator()(double time) const;
+  const std::vector<double>& times() const { return time_; }
+  double largest_rate() const;  // largest sqrt(2 E:E), 1/s
+
+ private:
+  std::vector<double> time_;               // s
+  std::vector<Eigen::Matrix3d> gradient_;  // 1/s
+};
+
+struct HistoryResult {
+  std::vector<Orbit> orbits;  // forces at viscosity 1 Pa s
+  std::size_t worst_orbit = 0;
+  double mean_peak_tension = 0;
+};
+HistoryResult follow_history(const LoadedBody& body, const GradientHistory& history, int orbits, std::uint64_t seed,
+                             double tolerance = 1e-8);
+
+}  // namespace crumble

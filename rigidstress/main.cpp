@@ -1,0 +1,72 @@
+// Loads in a rigid agglomerate: scene and agglomerate in, stress file out.
+#include <fmt/core.h>
+
+#include <filesystem>
+
+#include "common/io/agglomerate_reader.hpp"
+#include "common/io/command_line.hpp"
+#include "common/io/program.hpp"
+#include "common/io/provenance.hpp"
+#include "common/numerics/noise.hpp"
+#include "rigidstress/result.hpp"
+#include "rigidstress/stress_file.hpp"
+
+using namespace crumble;
+
+namespace {
+
+ProgramDescription description() {
+  return {"rigidstress",
+          "Where the load sits in an agglomerate that moves as a rigid body in a flow, and at which flow stress its "
+          "weakest contact gives way.",
+          {{"AGGLOMERATE.h5", "the agglomerate; a stress file of the same scene lends its response"}},
+          {{"rigidstress stress-elongation.toml hollow.h5 -o stress.h5 --report stress.json", "one agglomerate"},
+           {"rigidstress stress-elongation.toml hollow.h5 -o fast.h5 --set hydrodynamics.method=fts",
+            "far-field hydrodynamics, a tenth of a second"},
+           {"rigidstress stress-elongation.toml stress.h5 -o more.h5 --set flow.uniaxial=true",
+            "another flow, nothing factorised again"}},
+          version_text("rigidstress"),
+          stress_parameters()};
+}
+
+int load(int argc, const char* const* argv) {
+  const CommandLine line = parse_command_line(description(), argc, argv);
+  if (line.answer) {
+    fmt::print("{}", *line.answer);
+    return 0;
+  }
+  const Scene text = Scene::read(line.scene, stress_parameters(), line.overrides);
+  const StressScene scene = stress_scene(text);
+  const std::string input = line.inputs.front();
+  const Provenance provenance = make_provenance("rigidstress", {argv, argv + argc}, scene.seed, rng_name, input);
+  Report report("rigidstress", provenance.version, line.scene, static_cast<std::int64_t>(scene.seed));
+  ProgressPrinter progress(stderr, std::filesystem::path(input).stem().string(), line.quiet);
+  const Say say = [&](const std::string& message) { progress.say(message); };
+
+  std::optional<Analysis> analysis = restore(input, text, scene);
+  if (analysis) {
+    say("the response of " + input + " is that of this scene: nothing is factorised");
+    if (line.check) return 0;
+  } else {
+    Prepared prepared = prepare(read_agglomerate(input), input, scene.radius, scene.material, scene.largest_gap);
+    for (const std::string& fact : describe(prepared)) say(fact);
+    if (line.check) return 0;
+    analysis = analyse(std::move(prepared), input, scene, say);
+  }
+  run_flows(*analysis, scene);
+
+  AgglomerateWriter writer(line.output, analysis->prepared.particles,
+                           {"rigidstress", provenance, text.given(), text.resolved(), "none"});
+  write_stress(writer, *analysis, scene);
+  writer.finish("relaxed");
+  fill_report(report, *analysis, scene);
+  if (!line.report.empty()) report.write(line.report);
+  fmt::print("{}", result_text(*analysis, scene));
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return run_program("rigidstress", [&] { return load(argc, argv); });
+}

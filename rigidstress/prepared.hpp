@@ -1,0 +1,50 @@
+// The agglomerate as it is analysed: at the scene's size, with closed contacts, divided into bodies.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/agglomerate/closing.hpp"
+#include "rigidstress/network.hpp"
+
+namespace crumble {
+
+struct Prepared {
+  Particles particles;
+  Frame frame;                                // contacts closed to the JKR equilibrium gap; what the file keeps
+  std::vector<Vector3> position;              // where the analysis has the spheres: contacts at gap zero, see below
+  double scale = 1;                           // new over old radius
+  std::vector<NearPair> lost, unlisted;       // of the closing
+  double residual_rms = 0, residual_max = 0;  // tension that closing left, N
+  double largest_tension = 0;                 // the same, in pull-off forces
+};
+
+// Scales the agglomerate to `radius` (mean; without it it keeps its own) and closes the contacts on its list.
+//
+// A JKR contact at rest overlaps by (2/3) b0^2/a, 0.2 % of a at 100 nm, since the spheres are flattened there. A rigid
+// analysis of spheres wants them to touch: `position` is the closed configuration stretched by that amount, the mean of
+// (a_i + a_j)/(distance) over the contacts, so that results do not depend on the material through it.
+//
+// Throws InputError, naming the pair, where a listed contact is open by more than `largest_gap` radii: such a list is
+// wrong, and closing would tear the agglomerate about. Throws std::runtime_error if closing does not converge.
+Prepared prepare(const Agglomerate& agglomerate, const std::string& name, std::optional<double> radius,
+                 const Material& material, double largest_gap);
+
+// Positions of closed contacts stretched to gap zero.
+std::vector<Vector3> touching_positions(const Particles& particles, const Frame& frame);
+
+// One connected part.
+struct Body {
+  std::vector<int> particle;  // rows of the particle arrays, ascending
+  std::vector<int> contact;   // rows of the contact list
+};
+std::vector<Body> bodies(const Prepared& prepared);  // as fragments: largest first
+
+// Joints in the order of body.contact, numbered within the body.
+Network network_of(const Prepared& prepared, const Body& body, const JointChoice& choice, const Material& material);
+
+Vector3 centre_of(const Prepared& prepared, const Body& body);  // centre of mass of `position`, m
+std::vector<double> pull_off_of(const Prepared& prepared, const Body& body, const Material& material);  // N
+
+}  // namespace crumble

@@ -1,0 +1,226 @@
+#include "rigidstress/result.hpp"
+
+#include <fmt/format.h>
+
+#include <numbers>
+
+#include "common/agglomerate/morphology.hpp"
+#include "rigidstress/mobility_numbers.hpp"
+
+namespace crumble {
+
+namespace {
+
+// Numbers are those of the body that breaks first; tensions in 6 pi mu gamma_dot a^2, a the mean radius of all.
+struct Numbers {
+  const Analysis& analysis;
+  const BodyResult& body;
+  double a, force;  // m; N at a flow stress of 1 Pa
+  explicit Numbers(const Analysis& all)
+      : analysis(all),
+        body(all.weakest()),
+        a(mean_radius(all.prepared.particles)),
+        force(6 * std::numbers::pi * a * a) {}
+
+  Report::Value critical_stress(const Peak& peak) const {
+    if (peak.contact < 0) return nullptr;
+    return 1 / peak.use;  // Pa
+  }
+  Report::Value pair(const Peak& peak) const {
+    if (peak.contact < 0) return nullptr;
+    const Contact& c = contact(peak);
+    return std::vector<std::int64_t>{c.i, c.j};
+  }
+  Report::Value distance_nm(const Peak& peak) const {
+    if (peak.contact < 0) return nullptr;
+    const Contact& c = contact(peak);
+    const auto& x = analysis.prepared.position;
+    return 1e9 * (0.5 * (x[c.i] + x[c.j]) - body.centre).norm();
+  }
+
+ private:
+  const Contact& contact(const Peak& peak) const {
+    return analysis.prepared.frame.contacts[body.body.contact[peak.contact]];
+  }
+};
+
+// The attractor that most starts reach; without contacts or rest, nothing.
+const Attractor* settled(const StrainingResult& r) { return r.attractors.empty() ? nullptr : &r.attractors.front(); }
+
+void add_straining(Report& report, const std::string& name, const Numbers& n, const StrainingResult& r) {
+  const auto add = [&](const std::string& key, Report::Value value) { report.result(name + "." + key, value); };
+  const Attractor* rest = settled(r);
+  const Peak peak = rest ? rest->peak : Peak{};
+  add("n_max_settled", rest ? Report::Value(peak.tension / n.force) : Report::Value(nullptr));
+  add("n_max_worst", r.worst.tension / n.force);
+  add("critical_stress_settled_pa", n.critical_stress(peak));
+  add("critical_stress_worst_pa", n.critical_stress(r.worst));
+  add("contact", n.pair(peak));
+  add("contact_distance_nm", n.distance_nm(peak));
+  add("contact_worst", n.pair(r.worst));
+  add("contact_worst_distance_nm", n.distance_nm(r.worst));
+  std::vector<double> shares, tensions;
+  for (const Attractor& attractor : r.attractors) {
+    shares.push_back(attractor.share);
+    tensions.push_back(attractor.peak.tension / n.force);
+  }
+  add("attractor_share", shares);
+  add("attractor_n_max", tensions);
+  add("n_max_mean_of_starts", r.mean_settled_tension / n.force);
+  add("unsettled_share", r.unsettled);
+}
+
+void add_shear(Report& report, const Numbers& n, const ShearResult& r) {
+  const Orbit& worst = r.orbits[r.worst_orbit];
+  std::vector<double> peaks;
+  double use = 0;
+  for (const Orbit& orbit : r.orbits) {
+    peaks.push_back(orbit.peak.tension / n.force);
+    use += orbit.peak.use / static_cast<double>(r.orbits.size());
+  }
+  report.result("shear.n_max_orbit", r.mean_peak_tension / n.force);
+  report.result("shear.n_max_time_mean", r.mean_tension / n.force);
+  report.result("shear.mean_tumbling_time", r.mean_tumbling_time);
+  report.result("shear.critical_stress_pa", use > 0 ? Report::Value(1 / use) : Report::Value(nullptr));
+  report.result("shear.n_max_supremum", r.supremum.tension / n.force);
+  report.result("shear.critical_stress_supremum_pa", n.critical_stress(r.supremum));
+  report.result("shear.n_max_of_each_orbit", peaks);
+  report.result("shear.contact", n.pair(worst.peak));
+  report.result("shear.contact_distance_nm", n.distance_nm(worst.peak));
+}
+
+void add_history(Report& report, const Numbers& n, const HistoryResult& r, const StressScene& scene) {
+  const Orbit& worst = r.orbits[r.worst_orbit];
+  const double rate = scene.history->largest_rate(), mu = scene.viscosity;
+  report.result("history.n_max_orbit", r.mean_peak_tension / (n.force * rate));
+  report.result("history.n_max_worst_orbit", worst.peak.tension / (n.force * rate));
+  report.result("history.n_max_worst_orbit_n", mu * worst.peak.tension);
+  report.result("history.use_of_pull_off", mu * worst.peak.use);
+  report.result("history.largest_stress_pa", mu * rate);
+  report.result("history.critical_stress_pa",
+                worst.peak.use > 0 ? Report::Value(rate / worst.peak.use) : Report::Value(nullptr));
+  report.result("history.time_s", worst.time[worst.peak_at]);
+  report.result("history.contact", n.pair(worst.peak));
+}
+
+void add_drag(Report& report, const Numbers& n) {
+  const MobilityNumbers m = mobility_numbers(n.body.loaded.response.drag);
+  const double unit = 6 * std::numbers::pi * n.a;
+  const auto list = [](const Vector3& v, double u) { return std::vector<double>{v[0] / u, v[1] / u, v[2] / u}; };
+  report.result("drag_over_6_pi_mu_a", list(m.drag, unit));
+  report.result("rotation_over_6_pi_mu_a3", list(m.rotation, unit * n.a * n.a));
+  report.result("hydrodynamic_radius_nm", 1e9 * m.hydrodynamic_radius);
+  report.result("hydrodynamic_radius_over_a", m.hydrodynamic_radius / n.a);
+}
+
+void add_fragments(Report& report, const Numbers& n) {
+  const auto& all = n.analysis.bodies;
+  report.result("fragments", static_cast<std::int64_t>(all.size()));
+  if (all.size() == 1) return;
+  std::vector<std::int64_t> sizes;
+  std::vector<double> worst;
+  for (const BodyResult& b : all) {
+    sizes.push_back(static_cast<std::int64_t>(b.body.particle.size()));
+    worst.push_back(b.worst.tension / n.force);
+  }
+  report.result("fragment_sizes", sizes);
+  report.result("fragment_n_max_worst", worst);
+}
+
+double largest_self_stress(const Prepared& p) { return p.largest_tension; }
+
+}  // namespace
+
+void fill_report(Report& report, const Analysis& a, const StressScene& scene) {
+  const Numbers n(a);
+  const auto contacts = static_cast<std::int64_t>(a.prepared.frame.contacts.size());
+  report.result("hydrodynamics", a.method);
+  report.result("particles", static_cast<std::int64_t>(a.prepared.particles.size()));
+  report.result("particle_radius_nm", 1e9 * n.a);
+  report.result("contacts", contacts);
+  report.result("coordination", coordination_number(a.prepared.particles.size(), static_cast<std::size_t>(contacts)));
+  report.result("statically_determinate_contacts", std::int64_t{n.body.bridges});
+  report.result("contacts_lost_in_closing", static_cast<std::int64_t>(a.prepared.lost.size()));
+  report.result("scaled_by", a.prepared.scale);
+  add_fragments(report, n);
+  add_drag(report, n);
+  if (n.body.elongation) add_straining(report, "elongation", n, *n.body.elongation);
+  if (n.body.shear) add_shear(report, n, *n.body.shear);
+  if (n.body.uniaxial) add_straining(report, "uniaxial", n, *n.body.uniaxial);
+  if (n.body.biaxial) add_straining(report, "biaxial", n, *n.body.biaxial);
+  if (n.body.history) add_history(report, n, *n.body.history, scene);
+
+  const bool restored = a.restored;
+  report.error("n_max_relative", a.error, a.how);
+  const Response& r = n.body.loaded.response;
+  const auto known = [&](double value) { return restored ? std::optional<double>() : value; };
+  report.error("load_balance_relative", known(r.imbalance),
+               restored ? "not computed: the response was read from the file"
+                        : "net force and torque of the fluid on the free body over the sum of their parts");
+  report.error("particle_balance_relative", known(r.residual),
+               restored ? "not computed: the response was read from the file"
+                        : "largest unbalanced load of a particle over the largest load on one");
+  report.error("self_stress_n", a.prepared.residual_max,
+               "largest force that closing the contacts left, not part of the tensions reported");
+  report.left_out = {
+      "deformation: the agglomerate moves as a rigid body and breaks where a tension first reaches the pull-off force",
+      "inertia of particles and fluid, and Brownian motion",
+      fmt::format("self-stress of the closed contacts, up to {:.2g} pull-off forces in tension",
+                  largest_self_stress(a.prepared))};
+  if (restored) report.left_out.push_back("factorisation: the response of the input file was computed with this scene");
+}
+
+std::vector<std::string> describe(const Prepared& p) {
+  std::vector<std::string> lines;
+  lines.push_back(
+      fmt::format("{} particles, {} contacts; radius scaled by {:g}; contacts closed, self-stress left {:.2g} "
+                  "N rms, {:.2g} N at most",
+                  p.particles.size(), p.frame.contacts.size(), p.scale, p.residual_rms, p.residual_max));
+  for (const auto& [what, pairs] : {std::pair("contact lost in closing: ", &p.lost),
+                                    std::pair("overlapping pair that is no contact: ", &p.unlisted)})
+    for (std::size_t k = 0; k < std::min<std::size_t>(pairs->size(), 5); ++k)
+      lines.push_back(fmt::format("{}{}-{}, gap {:.3g} nm{}", what, (*pairs)[k].i, (*pairs)[k].j, 1e9 * (*pairs)[k].gap,
+                                  k == 4 && pairs->size() > 5 ? fmt::format(" (and {} more)", pairs->size() - 5) : ""));
+  return lines;
+}
+
+std::string result_text(const Analysis& a, const StressScene& scene) {
+  const Numbers n(a);
+  std::string text;
+  const auto row = [&](const std::string& what, double tension, double use) {
+    const std::string stress = use > 0 ? fmt::format("{:10.0f}", 1 / use) : fmt::format("{:>10}", "never");
+    text += fmt::format("{:<34}{:8.3f}{}\n", what, tension / n.force, stress);
+  };
+  text += fmt::format("hydrodynamics {}\n", a.method);
+  text += a.error ? fmt::format("largest tension within {:.2g} % ({})\n", 100 * *a.error, a.how)
+                  : fmt::format("error of the largest tension {}\n", a.how);
+  const MobilityNumbers m = mobility_numbers(n.body.loaded.response.drag);
+  text += fmt::format("hydrodynamic radius {:.4f} a\n\n", m.hydrodynamic_radius / n.a);
+  text += fmt::format("{:<34}{:>8}{:>10}\n", "N_max/(6 pi mu gamma_dot a^2)", "", "breaks, Pa");
+  const auto straining_rows = [&](const std::string& name, const std::optional<StrainingResult>& r) {
+    if (!r) return;
+    if (const Attractor* rest = settled(*r))
+      row(fmt::format("{}, settled ({:.0f} %)", name, 100 * rest->share), rest->peak.tension, rest->peak.use);
+    row(name + ", worst orientation", r->worst.tension, r->worst.use);
+  };
+  straining_rows("elongation", n.body.elongation);
+  straining_rows("uniaxial", n.body.uniaxial);
+  straining_rows("biaxial", n.body.biaxial);
+  if (const auto& r = n.body.shear) {
+    double use = 0;
+    for (const Orbit& orbit : r->orbits) use += orbit.peak.use / static_cast<double>(r->orbits.size());
+    row(fmt::format("shear, mean over {} orbits", r->orbits.size()), r->mean_peak_tension, use);
+    row("shear, worst orbit", r->orbits[r->worst_orbit].peak.tension, r->orbits[r->worst_orbit].peak.use);
+    text += fmt::format("{:<34}{:8.3f}\n", "shear, mean over time", r->mean_tension / n.force);
+    text += fmt::format("{:<34}{:8.2f} 1/gamma_dot\n", "shear, mean tumbling time", r->mean_tumbling_time);
+  }
+  if (const auto& r = n.body.history) {
+    const Orbit& worst = r->orbits[r->worst_orbit];
+    text +=
+        fmt::format("history: {:.3g} % of the pull-off force at t = {:g} s{}\n", 100 * scene.viscosity * worst.peak.use,
+                    worst.time[worst.peak_at], scene.viscosity * worst.peak.use >= 1 ? ": it breaks" : "");
+  }
+  return text;
+}
+
+}  // namespace crumble
