@@ -48,7 +48,7 @@ double unrest(const TurningBody& turning, const Quaternion& q, const Eigen::Matr
 
 // Turns until the loads are steady. Near a fixed point the distance to it is this rate over the relaxation rate.
 bool settle(const TurningBody& turning, const Eigen::Matrix3d& gradient, double longest, Quaternion& q) {
-  constexpr double at_rest = 1e-9;  // of the shear rate
+  constexpr double at_rest = 1e-8;  // of the shear rate; above what the integrator's tolerance leaves
   double t = 0, step = 0.1, stretch = 2;
   while (t < longest) {
     if (unrest(turning, q, gradient) < at_rest) return true;
@@ -76,7 +76,7 @@ StrainingResult straining(const LoadedBody& body, const Eigen::Matrix3d& gradien
   // Rounding leaves a drift of about 1e-14 where symmetry forbids any.
   result.is_turning = body.response.drift.bottomRows<3>().cwiseAbs().maxCoeff() > 1e-9;
 
-  const TurningBody turning = body.turning();
+  const TurningBody turning = body.turning(1e-10);
   std::vector<Eigen::VectorXd> loads;
   const double share = 1.0 / choice.starts;
   int settled = 0;
@@ -113,7 +113,7 @@ Orbit follow(const LoadedBody& body, const Quaternion& start, const std::vector<
   Orbit orbit;
   orbit.time = times;
   Quaternion q = start;
-  double step = times.size() > 1 ? times[1] - times[0] : 0, spin_before = 0;
+  double step = times.size() > 1 ? times[1] - times[0] : 0;
   for (std::size_t k = 0; k < times.size(); ++k) {
     if (k > 0) turning.advance(q, times[k - 1], times[k], step, gradient_at);
     const Eigen::Matrix3d gradient = gradient_at(times[k]);
@@ -124,20 +124,52 @@ Orbit follow(const LoadedBody& body, const Quaternion& start, const std::vector<
       orbit.peak = peak;
       orbit.peak_at = k;
     }
-    const Vector3 vorticity = LinearFlow{Vector3::Zero(), gradient}.angular_velocity();
-    const double rate = vorticity.norm();
-    const double spin = rate > 0 ? turning.angular_velocity(q, gradient).dot(vorticity) / rate : 0;
-    if (k > 0) {
-      const double dt = times[k] - times[k - 1];
-      orbit.turned += 0.5 * dt * (spin + spin_before);
-      orbit.mean_max_tension += 0.5 * dt * (orbit.max_tension[k] + orbit.max_tension[k - 1]);
-    }
-    spin_before = spin;
+    if (k > 0)
+      orbit.mean_max_tension += 0.5 * (times[k] - times[k - 1]) * (orbit.max_tension[k] + orbit.max_tension[k - 1]);
   }
   const double duration = times.back() - times.front();
   orbit.mean_max_tension = duration > 0 ? orbit.mean_max_tension / duration : orbit.max_tension.front();
   return orbit;
 }
+
+namespace {
+
+// The body axis about which rotation meets least resistance: the long one.
+Vector3 long_axis(const Response& response) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(response.drag.bottomRightCorner<3, 3>()).eigenvectors().col(0);
+}
+
+// Mean time of a turn of a body axis about the vorticity of simple_shear_gradient (along -z): from the first to the
+// last passage of its azimuth through the gradient direction, forward or backward end, so that whole half turns count.
+// Less than two passages: by the angle turned so far.
+double tumbling_time(const Orbit& orbit, const Vector3& axis) {
+  using std::numbers::pi;
+  double angle = 0, before = 0, next = 0, first = 0, last = 0;
+  int passages = 0;
+  for (std::size_t k = 0; k < orbit.time.size(); ++k) {
+    const Vector3 x = orbit.orientation[k] * axis;
+    const double azimuth = -std::atan2(x.y(), x.x());
+    const double old = angle;
+    if (k == 0) {
+      angle = azimuth;
+      next = pi * std::ceil(angle / pi - 0.5) + pi / 2;
+    } else {
+      angle += std::remainder(azimuth - before, 2 * pi);
+    }
+    before = azimuth;
+    if (k == 0 || angle < next) continue;
+    const double part = angle > old ? (next - old) / (angle - old) : 1;
+    last = orbit.time[k - 1] + part * (orbit.time[k] - orbit.time[k - 1]);
+    if (passages++ == 0) first = last;
+    next += pi;
+  }
+  if (passages > 1) return 2 * (last - first) / (passages - 1);
+  const Vector3 x = orbit.orientation.front() * axis;
+  const double turned = angle + std::atan2(x.y(), x.x());
+  return turned > 0 ? 2 * pi * (orbit.time.back() - orbit.time.front()) / turned : 0;
+}
+
+}  // namespace
 
 ShearResult shear(const LoadedBody& body, const ShearChoice& choice) {
   ShearResult result;
@@ -149,7 +181,7 @@ ShearResult shear(const LoadedBody& body, const ShearChoice& choice) {
   std::vector<double> times;
   const int samples = static_cast<int>(std::ceil(choice.strain / choice.sample));
   for (int k = 0; k <= samples; ++k) times.push_back(choice.strain * k / samples);
-  double turned = 0;
+  const Vector3 axis = long_axis(body.response);
   for (int k = 0; k < choice.orbits; ++k) {
     const Quaternion start = random_orientation(choice.seed, static_cast<std::uint32_t>(k));
     result.orbits.push_back(follow(
@@ -157,10 +189,9 @@ ShearResult shear(const LoadedBody& body, const ShearChoice& choice) {
     const Orbit& orbit = result.orbits.back();
     result.mean_peak_tension += orbit.peak.tension / choice.orbits;
     result.mean_tension += orbit.mean_max_tension / choice.orbits;
-    turned += orbit.turned;
+    result.mean_tumbling_time += tumbling_time(orbit, axis) / choice.orbits;
     if (orbit.peak.use > result.orbits[result.worst_orbit].peak.use) result.worst_orbit = static_cast<std::size_t>(k);
   }
-  if (turned > 0) result.mean_tumbling_time = 2 * std::numbers::pi * choice.orbits * choice.strain / turned;
   return result;
 }
 

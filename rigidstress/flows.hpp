@@ -64,7 +64,6 @@ struct Orbit {
   Peak peak;                        // largest on the way
   std::size_t peak_at = 0;          // its instant
   double mean_max_tension = 0;      // over time
-  double turned = 0;                // angle about the mean vorticity, rad
 };
 
 struct ShearResult {
@@ -72,7 +71,7 @@ struct ShearResult {
   std::vector<Orbit> orbits;
   double mean_peak_tension = 0;   // of the orbits' largest tensions: what the paper averages over its set
   double mean_tension = 0;        // N_max over time and orbits
-  double mean_tumbling_time = 0;  // for one turn about the vorticity; in 1/gamma_dot
+  double mean_tumbling_time = 0;  // for one turn of the long axis about the vorticity; in 1/gamma_dot
   std::size_t worst_orbit = 0;
 };
 struct ShearChoice {

@@ -1,0 +1,192 @@
+// Flows on known responses: settled orientations, tumbling orbits, histories.
+#include "rigidstress/flows.hpp"
+
+#include <gtest/gtest.h>
+
+#include "common/contact/jkr.hpp"
+#include "rigidstress/history.hpp"
+#include "rigidstress/mobility_numbers.hpp"
+#include "samples.hpp"
+
+namespace crumble {
+namespace {
+
+using std::numbers::pi;
+
+LoadedBody loaded(const testing::Cluster& cluster, int order) {
+  const Network net = testing::network(cluster);
+  return {testing::response(net, {Rung::multipole, order}),
+          std::vector<double>(net.joints().size(), pull_off_force(Material{}, testing::radius))};
+}
+
+const double unit = 6 * pi * testing::radius * testing::radius;
+
+TEST(Flows, DoubletSettlesAlongTheStretchingAxisAndBearsTheWorstThere) {
+  const LoadedBody doublet = loaded(testing::chain(2), 6);
+  const StrainingResult r = straining(doublet, planar_elongation_gradient(), {});
+  ASSERT_EQ(r.attractors.size(), 1u);
+  EXPECT_NEAR(r.attractors[0].share, 1, 1e-12);
+  EXPECT_EQ(r.unsettled, 0);
+  EXPECT_NEAR(std::abs((r.attractors[0].orientation * Vector3::UnitX()).x()), 1, 1e-9);
+  EXPECT_NEAR(r.attractors[0].peak.tension, r.worst.tension, 1e-9 * r.worst.tension);
+}
+
+// A rod in uniaxial flow lies along the axis, where it is stretched; in biaxial flow across the axis, at any azimuth.
+TEST(Flows, DoubletInUniaxialAndBiaxialFlow) {
+  const LoadedBody doublet = loaded(testing::chain(2), 2);
+  const StrainingResult uni = straining(doublet, uniaxial_gradient(), {}),
+                        bi = straining(doublet, biaxial_gradient(), {});
+  EXPECT_NEAR(uni.attractors.at(0).peak.tension, uni.worst.tension, 1e-9 * uni.worst.tension);
+  EXPECT_NEAR(bi.attractors.at(0).peak.tension, bi.worst.tension, 1e-9 * bi.worst.tension);
+  // Strain along the rod per unit shear rate: 1/sqrt 3 and half of it, against 1/2 in planar elongation.
+  const double planar = straining(doublet, planar_elongation_gradient(), {}).worst.tension;
+  EXPECT_NEAR(uni.worst.tension, planar * 2 / std::sqrt(3.0), 1e-9 * planar);
+  EXPECT_NEAR(bi.worst.tension, planar / std::sqrt(3.0), 1e-9 * planar);
+}
+
+TEST(Flows, UnitShearRateMeansTheSameInEveryFlow) {
+  for (const Eigen::Matrix3d& g :
+       {planar_elongation_gradient(), simple_shear_gradient(), uniaxial_gradient(), biaxial_gradient()}) {
+    const Eigen::Matrix3d E = 0.5 * (g + g.transpose());
+    EXPECT_NEAR(2 * E.squaredNorm(), 1, 1e-15);
+    EXPECT_NEAR(g.trace(), 0, 1e-15);
+  }
+}
+
+TEST(Flows, OctahedronDoesNotTurnInStrain) {
+  const StrainingResult r = straining(loaded(testing::octahedron(), 1), planar_elongation_gradient(), {});
+  EXPECT_FALSE(r.is_turning);
+  EXPECT_EQ(r.unsettled, 0);
+}
+
+// Jeffery: a body of revolution of equivalent axis ratio r turns in 2 pi (r + 1/r)/gamma_dot on every orbit. r
+// = 1.98165 for touching spheres (converged multipoles); order 8 leaves 1e-5 of the drag.
+TEST(Flows, DoubletTumblesInJefferysTime) {
+  const LoadedBody doublet = loaded(testing::chain(2), 8);
+  ShearChoice choice;
+  choice.orbits = 4;
+  const ShearResult r = shear(doublet, choice);
+  const double ratio = 1.98165;
+  EXPECT_NEAR(r.mean_tumbling_time, 2 * pi * (ratio + 1 / ratio), 2e-3);
+  EXPECT_LE(r.orbits[r.worst_orbit].peak.tension, r.supremum.tension);
+  for (const Orbit& orbit : r.orbits) EXPECT_GT(orbit.peak.tension, 0);
+}
+
+TEST(Flows, SphereTumblesInFourPi) {
+  EXPECT_NEAR(shear(loaded(testing::octahedron(), 1), {}).mean_tumbling_time, 4 * pi, 1e-3);
+}
+
+// A doublet that lies in the flow plane passes 45 degrees, where it is stretched along its axis: its orbit reaches the
+// supremum, 1.01936 for converged multipoles, but for the interval of the samples.
+TEST(Flows, DoubletInTheFlowPlaneReachesTheSupremum) {
+  const LoadedBody doublet = loaded(testing::chain(2), 8);
+  std::vector<double> times;
+  for (int k = 0; k <= 2000; ++k) times.push_back(0.01 * k);
+  const Orbit orbit = follow(doublet, Quaternion::Identity(), times, [](double) { return simple_shear_gradient(); });
+  EXPECT_NEAR(orbit.peak.tension / unit, 1.01936, 2e-4);
+}
+
+TEST(Flows, OrientationErrorFollowsItsTolerance) {
+  const LoadedBody body = loaded(testing::raft(3), 1);
+  std::vector<double> times{0, 50};
+  const auto end = [&](double tolerance) {
+    return follow(
+               body, random_orientation(1, 0), times, [](double) { return simple_shear_gradient(); }, tolerance)
+        .orientation.back();
+  };
+  const Quaternion exact = end(1e-13);
+  double before = 1;
+  for (const double tolerance : {1e-4, 1e-6, 1e-8, 1e-10}) {
+    const double error = exact.angularDistance(end(tolerance));
+    // Some hundred steps, each within the tolerance, whose errors shear carries along at a linear rate.
+    EXPECT_LT(error, 1e4 * tolerance);
+    EXPECT_LT(error, before);
+    before = error;
+  }
+}
+
+std::string history_text(const std::string& rows, const std::string& time = "t [s]",
+                         const std::string& rate = "[1/s]") {
+  std::string text = "# a comment\n" + time;
+  for (const char* name : {"ux_x", "ux_y", "ux_z", "uy_x", "uy_y", "uy_z", "uz_x", "uz_y", "uz_z"})
+    text += std::string(",") + name + " " + rate;
+  return text + "\n" + rows;
+}
+
+std::string refusal(const std::string& text) {
+  try {
+    GradientHistory::parse(text, "flow.csv");
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(History, SteadyShearFromAFileIsSteadyShear) {
+  std::string rows;
+  for (int k = 0; k <= 200; ++k) rows += std::to_string(0.001 * k) + ",0,100,0,0,0,0,0,0,0\n";
+  const GradientHistory history = GradientHistory::parse(history_text(rows), "flow.csv");
+  EXPECT_NEAR(history.largest_rate(), 100, 1e-12);
+  const LoadedBody doublet = loaded(testing::chain(2), 2);
+  const HistoryResult found = follow_history(doublet, history, 3, 1);
+  std::vector<double> times;
+  for (int k = 0; k <= 200; ++k) times.push_back(0.1 * k);
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    const Orbit same = follow(doublet, random_orientation(1, k), times, [](double) { return simple_shear_gradient(); });
+    EXPECT_NEAR(found.orbits[k].peak.tension, 100 * same.peak.tension, 1e-5 * 100 * same.peak.tension);
+  }
+}
+
+TEST(History, InterpolatesBetweenRows) {
+  const GradientHistory h =
+      GradientHistory::parse(history_text("0,0,2,0,0,0,0,0,0,0\n0.1,0,4,0,0,0,0,0,0,0\n"), "flow.csv");
+  EXPECT_NEAR(h(0.025)(0, 1), 2.5, 1e-14);
+  EXPECT_NEAR(h(-1)(0, 1), 2, 0);
+  EXPECT_NEAR(h(1)(0, 1), 4, 0);
+}
+
+TEST(History, RefusesWhatCannotBeAVelocityGradientInTime) {
+  const std::string good = "0,0,1,0,0,0,0,0,0,0\n0.1,0,1,0,0,0,0,0,0,0\n";
+  EXPECT_EQ(refusal(history_text(good)), "");
+  const auto expect = [](const std::string& text, const std::string& part) {
+    EXPECT_NE(refusal(text).find(part), std::string::npos) << refusal(text);
+  };
+  expect(history_text(good, "t [ms]"), "flow.csv:2: column 1 't [ms]' must carry its unit, [s]");
+  expect(history_text(good, "t [s]", "[1/ms]"), "must carry its unit, [1/s]");
+  expect(good, "flow.csv:1: column 1");  // no header
+  expect(history_text("0,1,1,0,0,0,0,0,0,0\n"), "trace");
+  expect(history_text("0,0,1,0,0,0,0,0,0\n"), "flow.csv:3: 9 columns");
+  expect(history_text("0,0,nan,0,0,0,0,0,0,0\n"), "'nan' is not a finite number");
+  expect(history_text("0,0,1,0,0,0,0,0,0,0\n0,0,1,0,0,0,0,0,0,0\n"), "times must increase");
+  expect(history_text("0,0,1,0,0,0,0,0,0,0\n5,0,1,0,0,0,0,0,0,0\n"), "the flow strains by 5");
+  std::string gap;
+  for (const double t : {0.0, 0.01, 0.02, 0.03, 0.5}) gap += std::to_string(t) + ",0,1,0,0,0,0,0,0,0\n";
+  expect(history_text(gap), "a gap in time");
+  expect(history_text("0,0,1,0,0,0,0,0,0,0\n"), "at least two instants");
+}
+
+// Free rotation of two touching spheres about their axis: 8 pi (3/2) zeta(3); drag from converged multipoles.
+TEST(MobilityNumbers, OfTheDoublet) {
+  const Network net = testing::network(testing::chain(2));
+  const MobilityNumbers n = mobility_numbers(testing::response(net, {Rung::multipole, 8}).drag);
+  const double a = testing::radius;
+  EXPECT_NEAR(n.drag[0] / (6 * pi * a), 1.290283, 1e-5);
+  EXPECT_NEAR(n.drag[2] / (6 * pi * a), 1.449322, 1e-5);
+  EXPECT_NEAR(n.rotation[0] / (8 * pi * a * a * a), 1.5 * 1.2020569, 1e-4);
+  EXPECT_NEAR(n.hydrodynamic_radius / a, 3 / (1 / 1.290283 + 2 / 1.449322), 1e-5);
+}
+
+// The hydrodynamic radius does not depend on the point that drag is taken about.
+TEST(MobilityNumbers, HydrodynamicRadiusIsThatOfTheCentreOfMobility) {
+  testing::Cluster bent = testing::touching({{0, 0, 0}, {2, 0, 0}, {4, 0, 0}, {4, 2, 0}, {4, 2, 2}});
+  const Network net = testing::network(bent);
+  const auto radius_about = [&](const Vector3& point) {
+    const DenseHydrodynamics hydrodynamics({net.position(), net.radius()}, 1, {});
+    return mobility_numbers(rigid_body_response(hydrodynamics, net.position(), point).drag).hydrodynamic_radius;
+  };
+  const double reference = radius_about(testing::centre(net.position()));
+  EXPECT_NEAR(radius_about({3e-7, -5e-7, 2e-7}), reference, 1e-9 * reference);
+}
+
+}  // namespace
+}  // namespace crumble

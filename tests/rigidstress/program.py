@@ -1,0 +1,211 @@
+"""The program as users meet it: rigidstress and agglomerate on small agglomerates, hard cases included.
+
+    program.py RIGIDSTRESS AGGLOMERATE SCENE.toml
+"""
+import json
+import math
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import h5py
+import numpy
+
+RIGIDSTRESS, AGGLOMERATE, SCENE = (str(pathlib.Path(p).resolve()) for p in sys.argv[1:4])
+PULL_OFF = 1.5 * math.pi * 4.8e-3 * 100e-9  # N, of spheres of 100 nm
+
+
+def dodecahedron(edge):
+    """Its 20 corners, each with three neighbours at the given distance."""
+    g = (1 + 5**0.5) / 2
+    corners = [[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
+    for p in (-1 / g, 1 / g):
+        for q in (-g, g):
+            corners += [[0, p, q], [p, q, 0], [q, 0, p]]
+    return numpy.array(corners) * edge * g / 2
+
+
+class Program(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="rigidstress-"))
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def run_it(self, *arguments):
+        return subprocess.run([RIGIDSTRESS, *map(str, arguments)], capture_output=True, text=True, timeout=120)
+
+    def agglomerate(self, centres, radius=100, tolerance=0.02):
+        """Centres in nm -> closed agglomerate file; `radius` may be a list."""
+        lists = hasattr(radius, "__len__")
+        table = self.folder / "centres.csv"
+        rows = ["x,y,z,radius" if lists else "x,y,z"]
+        for k, x in enumerate(centres):
+            rows.append(",".join(f"{v:.12g}" for v in ([*x, radius[k]] if lists else x)))
+        table.write_text("\n".join(rows) + "\n")
+        out = self.folder / "agglomerate.h5"
+        command = [AGGLOMERATE, "import", str(table), "-o", str(out), "--contact-tolerance", str(tolerance)]
+        subprocess.run(command + ([] if lists else ["--radius", str(radius)]), check=True, capture_output=True)
+        return out
+
+    def stress(self, agglomerate, *settings, scene=SCENE, output="stress.h5"):
+        out, report = self.folder / output, self.folder / "stress.json"
+        run = self.run_it(scene, agglomerate, "-o", out, "--report", report, *[a for s in settings for a in ("--set", s)])
+        self.assertEqual(run.returncode, 0, run.stderr)
+        return json.loads(report.read_text()), run, out
+
+    def refused(self, agglomerate, *settings):
+        out = self.folder / "refused.h5"
+        run = self.run_it(SCENE, agglomerate, "-o", out, *[a for s in settings for a in ("--set", s)])
+        self.assertNotEqual(run.returncode, 0)
+        self.assertFalse(out.exists())
+        return run
+
+    def test_doublet(self):
+        report, _, out = self.stress(self.agglomerate([[0, 0, 0], [200, 0, 0]]),
+                                     "hydrodynamics.method=multipole", "hydrodynamics.order=9")
+        found = report["results"]
+        numpy.testing.assert_allclose(found["drag_over_6_pi_mu_a"], [1.290283, 1.449322, 1.449322], atol=1e-5)
+        # Converged multipoles, 1.01936; order 9 is within 2e-4 of it.
+        self.assertAlmostEqual(found["elongation"]["n_max_worst"], 1.01936, delta=2e-4)
+        self.assertAlmostEqual(found["elongation"]["n_max_settled"], 1.01936, delta=2e-4)
+        self.assertEqual(found["elongation"]["contact"], [0, 1])
+        for kind in ("settled", "worst"):
+            stress = PULL_OFF / (6 * math.pi * 1e-14 * found["elongation"]["n_max_" + kind])
+            self.assertAlmostEqual(found["elongation"][f"critical_stress_{kind}_pa"], stress, delta=1e-6 * stress)
+        self.assertLess(report["errors"]["n_max_relative"]["value"], 1e-3)
+        self.assertEqual(set(found["shear"]) & {"n_max_orbit", "n_max_time_mean", "mean_tumbling_time",
+                                                "critical_stress_pa"},
+                         {"n_max_orbit", "n_max_time_mean", "mean_tumbling_time", "critical_stress_pa"})
+        check = subprocess.run([AGGLOMERATE, "check", str(out)], capture_output=True, text=True)
+        self.assertEqual(check.returncode, 0, check.stdout)
+
+    def test_far_field_by_override(self):
+        report, _, _ = self.stress(self.agglomerate([[0, 0, 0], [200, 0, 0]]), "hydrodynamics.method=fts")
+        self.assertAlmostEqual(report["results"]["elongation"]["n_max_worst"], 20 / 21, delta=1e-6)
+        self.assertEqual(report["results"]["hydrodynamics"], "fts")
+
+    def test_another_flow_on_a_stress_file_factorises_nothing(self):
+        square = [[0, 0, 0], [200, 0, 0], [200, 200, 0], [0, 200, 0], [100, 100, 141.4213562]]
+        first, _, out = self.stress(self.agglomerate(square))
+        again, run, _ = self.stress(out, "flow.uniaxial=true", output="again.h5")
+        self.assertIn("nothing is factorised", run.stderr)
+        for key in ("n_max_worst", "n_max_settled", "critical_stress_worst_pa"):
+            self.assertAlmostEqual(first["results"]["elongation"][key] / again["results"]["elongation"][key], 1, 9)
+        self.assertIn("n_max_worst", again["results"]["uniaxial"])
+        self.assertEqual(first["errors"]["n_max_relative"]["value"], again["errors"]["n_max_relative"]["value"])
+        # Another structure is another response.
+        other, run, _ = self.stress(out, "structure.bending_factor=2", output="other.h5")
+        self.assertNotIn("nothing is factorised", run.stderr)
+        self.assertNotEqual(other["results"]["elongation"]["n_max_worst"], first["results"]["elongation"]["n_max_worst"])
+
+    def test_response_in_the_file_gives_the_flow(self):
+        square = [[0, 0, 0], [200, 0, 0], [200, 200, 0], [0, 200, 0], [100, 100, 141.4213562]]
+        report, _, out = self.stress(self.agglomerate(square))
+        with h5py.File(out) as file:
+            load, basis = file["response/load"][:], file["response/basis"][:]
+            normal, pair = file["contacts/normal"][:], file["response/pair"][:]
+            tension = -numpy.einsum("pk,pks->ps", normal, load[:, :3])
+            tensors = numpy.einsum("ps,sij->pij", tension, basis)
+            eigenvalues = numpy.linalg.eigvalsh(tensors)
+            worst = (eigenvalues[:, 2] - eigenvalues[:, 0]) / 2
+            k = int(worst.argmax())
+            self.assertAlmostEqual(worst[k] / (6 * math.pi * 1e-14),
+                                   report["results"]["elongation"]["n_max_worst"], delta=1e-6)
+            forces = file["flows/elongation-worst/normal_force"][:]
+            self.assertAlmostEqual(forces.max() / (6 * math.pi * 1e-14),
+                                   report["results"]["elongation"]["n_max_worst"], delta=1e-6)
+            self.assertEqual(pair.shape, (8, 2))
+            self.assertEqual(file["response/velocity"].shape, (6, 5))
+
+    def test_scaled_and_closed_from_10_nm(self):
+        report, _, out = self.stress(self.agglomerate([[0, 0, 0], [20, 0, 0], [10, 17.32, 0]], radius=10))
+        self.assertAlmostEqual(report["results"]["scaled_by"], 10)
+        with h5py.File(out) as file:
+            self.assertAlmostEqual(file["particles/all/radius"][0], 100)
+            # Equilibrium gap of JKR at 100 nm.
+            numpy.testing.assert_allclose(file["contacts/gap"][:], -0.18795, atol=1e-5)
+
+    def test_one_particle(self):
+        report, _, _ = self.stress(self.agglomerate([[0, 0, 0]]))
+        self.assertEqual(report["results"]["elongation"]["n_max_worst"], 0)
+        self.assertIsNone(report["results"]["elongation"]["critical_stress_worst_pa"])
+        numpy.testing.assert_allclose(report["results"]["drag_over_6_pi_mu_a"], 1, atol=1e-12)
+
+    def test_two_fragments(self):
+        pieces = self.agglomerate([[0, 0, 0], [200, 0, 0], [400, 0, 0], [0, 900, 0], [200, 900, 0]])
+        run = self.refused(pieces)
+        self.assertEqual(run.returncode, 2)
+        self.assertIn("2 pieces", run.stderr)
+        report, _, out = self.stress(pieces, "structure.fragments=each", "hydrodynamics.method=fts")
+        found = report["results"]
+        self.assertEqual(found["fragment_sizes"], [3, 2])
+        # Each as if alone: the trimer and the doublet of the far field.
+        numpy.testing.assert_allclose(found["fragment_n_max_worst"], [1.425765, 0.952381], atol=1e-5)
+        again, run, _ = self.stress(out, "structure.fragments=each", "hydrodynamics.method=fts", output="again.h5")
+        self.assertIn("nothing is factorised", run.stderr)
+        numpy.testing.assert_allclose(again["results"]["fragment_n_max_worst"], found["fragment_n_max_worst"],
+                                      rtol=1e-9)
+
+    def test_shell_with_a_loose_particle_inside(self):
+        shell = self.agglomerate(numpy.r_[dodecahedron(200), [[0, 0, 0]]])
+        run = self.refused(shell)
+        self.assertIn("particle 20 belongs to the second", run.stderr)
+        report, _, _ = self.stress(shell, "structure.fragments=each", "hydrodynamics.method=fts")
+        self.assertEqual(report["results"]["fragment_sizes"], [20, 1])
+        self.assertGreater(report["results"]["elongation"]["n_max_worst"], 0)
+        self.assertEqual(report["results"]["fragment_n_max_worst"][1], 0)
+
+    def test_contact_of_spheres_one_radius_apart_is_refused_with_its_pair(self):
+        out = self.agglomerate([[0, 0, 0], [200, 0, 0], [400, 0, 0]])
+        with h5py.File(out, "r+") as file:
+            file["particles/all/position/value"][0, 2, 0] += 100
+            file["contacts/gap"][1] += 100
+        run = self.refused(out)
+        self.assertEqual(run.returncode, 2)
+        self.assertIn("contact 1-2", run.stderr)
+        self.assertIn("0.998 a apart", run.stderr)
+
+    def test_mechanism_is_named(self):
+        run = self.refused(self.agglomerate([[0, 0, 0], [200, 0, 0], [400, 0, 0]]), "structure.bending_factor=0")
+        self.assertEqual(run.returncode, 2)
+        self.assertIn("contact 0-1 is free to bend", run.stderr)
+
+    def test_unequal_radii(self):
+        report, _, _ = self.stress(self.agglomerate([[0, 0, 0], [150, 0, 0], [300, 0, 0]], radius=[100, 50, 100]))
+        found = report["results"]["elongation"]
+        # Both contacts are alike by symmetry, R* = 100/3 nm: F_po = (3/2) pi 2 gamma_s R*.
+        pull_off = 3 * math.pi * 4.8e-3 * 100e-9 / 3
+        # The scene's radius is the mean one, 83.3 nm in the file: all is scaled by 1.2.
+        unit = 6 * math.pi * 100e-9**2
+        self.assertAlmostEqual(found["critical_stress_worst_pa"] * found["n_max_worst"] * unit / (1.2 * pull_off), 1, 6)
+
+    def test_memory_limit_is_said(self):
+        run = self.refused(self.agglomerate([[200 * k, 0, 0] for k in range(20)]), "hydrodynamics.method=multipole",
+                           "hydrodynamics.memory=1e6")
+        self.assertIn("GB", run.stderr)
+        self.assertIn("hydrodynamics.memory", run.stderr)
+
+    def test_history(self):
+        names = ["t [s]"] + [f"{u}{x} [1/s]" for u in "uvw" for x in "xyz"]
+        rows = [",".join(names)] + [f"{0.01 * k},0,50,0,0,0,0,0,0,0" for k in range(101)]
+        (self.folder / "flow.csv").write_text("\n".join(rows) + "\n")
+        scene = self.folder / "history.toml"
+        scene.write_text('[particle]\nradius = 1e-7\n[fluid]\nviscosity = 2.0\n[flow]\nhistory = "flow.csv"\n'
+                         'elongation = false\nshear = false\n')
+        report, _, out = self.stress(self.agglomerate([[0, 0, 0], [200, 0, 0]]), scene=scene)
+        found = report["results"]["history"]
+        self.assertAlmostEqual(found["largest_stress_pa"], 100, places=9)
+        self.assertAlmostEqual(found["critical_stress_pa"], 100 / found["use_of_pull_off"], places=6)
+        with h5py.File(out) as file:
+            self.assertAlmostEqual(file["flows/history/max_tension"][:].max(), found["n_max_worst_orbit_n"], delta=1e-15)
+            self.assertEqual(len(file["flows/history/time"]), 101)
+        (self.folder / "flow.csv").write_text("\n".join(rows[:20] + rows[60:]) + "\n")
+        run = self.run_it(scene, self.folder / "agglomerate.h5", "-o", self.folder / "x.h5")
+        self.assertEqual(run.returncode, 2)
+        self.assertIn("flow.csv:21", run.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0]])
