@@ -1,0 +1,92 @@
+"""Every table of data/ can be read, says its source and its units, and is listed; the paper's row is the one we dry."""
+
+import csv
+import importlib.util
+import pathlib
+import tomllib
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+DATA = ROOT / "data"
+
+TEXT = {"quantity", "symbol", "unit", "code", "choice", "cluster", "case", "function", "lubrication"}
+UNITS = ("_nm", "_um", "_ms", "_s", "_N", "_pN", "_J", "_kT", "_kT_300K", "_percent", "_N_per_m", "_N_m", "_m2_per_s")
+DIMENSIONLESS = {"monomers", "starts", "peclet", "h_c_over_d_c", "h_c_over_d_c_spread", "coordination", "contacts",
+                 "contacts_spread", "rolling_limit", "counted_gap_over_a", "gap_over_a", "inverse", "logarithm",
+                 "constant", "x_logarithm", "value", "error",
+                 "XA11", "XA12", "YA11", "YA12", "YB11", "YC11", "YC12", "XG11", "XM11", "YM11", "ZM11"}
+
+
+def read(path):
+    lines = path.read_text(encoding="utf-8").splitlines()
+    count = next(k for k, line in enumerate(lines) if not line.startswith("#"))
+    heading, *rows = list(csv.reader(lines[count:], strict=True))
+    return lines[:count], heading, rows
+
+
+class Tables(unittest.TestCase):
+    def each(self, claim):
+        paths = sorted(DATA.glob("*.csv"))
+        self.assertGreater(len(paths), 10)
+        for path in paths:
+            with self.subTest(path.name):
+                claim(*read(path))
+
+    def test_each_says_its_source(self):
+        def claim(comments, heading, rows):
+            self.assertEqual(sum(line.startswith("# source: ") for line in comments), 1)
+            self.assertRegex(" ".join(comments), "2022|1984|computed for Crumble, November 2026")
+        self.each(claim)
+
+    def test_each_has_rows_as_wide_as_its_heading(self):
+        def claim(comments, heading, rows):
+            self.assertEqual(len(set(heading)), len(heading))
+            self.assertGreater(len(rows), 0)
+            for row in rows:
+                self.assertEqual(len(row), len(heading), row)
+        self.each(claim)
+
+    def test_each_cell_is_a_number_unless_its_column_is_text(self):
+        def claim(comments, heading, rows):
+            for row in rows:
+                for name, cell in zip(heading, row):
+                    if name not in TEXT and cell:
+                        float(cell)  # raises
+        self.each(claim)
+
+    def test_each_column_has_its_unit(self):
+        def claim(comments, heading, rows):
+            if "unit" not in heading:
+                for name in heading:
+                    self.assertTrue(name in TEXT or name in DIMENSIONLESS or name.endswith(UNITS), name)
+        self.each(claim)
+
+    def test_the_readme_lists_every_file(self):
+        readme = (DATA / "README.md").read_text(encoding="utf-8")
+        for path in DATA.iterdir():
+            if path.name != "README.md" and not path.name.endswith(".tmp"):
+                self.assertIn(f"`{path.name}`", readme)
+
+
+class Paper(unittest.TestCase):
+    def setUp(self):
+        _, heading, rows = read(DATA / "paper_table_2.csv")
+        self.first = dict(zip(heading, rows[0]))
+
+    def test_the_hollow_scene_is_the_first_row_of_table_2(self):
+        scene = tomllib.loads((ROOT / "pipeline/scenes/hollow.toml").read_text(encoding="utf-8"))
+        self.assertEqual(scene["particle"]["number"], int(self.first["monomers"]))
+        self.assertAlmostEqual(scene["particle"]["radius"] * 1e9, float(self.first["radius_nm"]))
+        self.assertAlmostEqual(scene["droplet"]["radius"] * 1e6, float(self.first["droplet_radius_um"]))
+        self.assertAlmostEqual(scene["droplet"]["lifetime"] * 1e3, float(self.first["lifetime_ms"]))
+
+    def test_the_printed_table_of_hollow_granules_has_the_values_of_that_row(self):
+        spec = importlib.util.spec_from_file_location("hollow", ROOT / "pipeline/report/hollow.py")
+        hollow = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(hollow)
+        for key in ("d_c_nm", "h_c_over_d_c"):
+            self.assertEqual(float(hollow.PAPER[key]), float(self.first[key]))
+
+
+if __name__ == "__main__":
+    unittest.main()
