@@ -1,5 +1,6 @@
 // Loads in a rigid agglomerate: scene and agglomerate in, stress file out.
 #include <fmt/core.h>
+#include <omp.h>
 
 #include <filesystem>
 
@@ -38,6 +39,7 @@ int load(int argc, const char* const* argv) {
   const Scene text = Scene::read(line.scene, stress_parameters(), line.overrides);
   const StressScene scene = stress_scene(text);
   const std::string input = line.inputs.front();
+  if (line.threads > 0) omp_set_num_threads(line.threads);
   const Provenance provenance = make_provenance("rigidstress", {argv, argv + argc}, scene.seed, rng_name, input);
   Report report("rigidstress", provenance.version, line.scene, static_cast<std::int64_t>(scene.seed));
   ProgressPrinter progress(stderr, std::filesystem::path(input).stem().string(), line.quiet);

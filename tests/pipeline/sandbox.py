@@ -14,7 +14,7 @@ CMAKE = """#!/bin/bash
 echo "cmake $*" >> "$LOG"
 [[ $1 == --build ]] || exit 0
 mkdir -p build/release/bin
-for program in dryer agglomerate; do
+for program in dryer agglomerate rigidstress; do
   [[ -f build/release/bin/$program ]] || { cp "$PROGRAMS/$program" build/release/bin/ && sleep 0.02; }
 done
 """
@@ -49,6 +49,17 @@ echo "agglomerate $*" >> "$LOG"
 exit "${CHECK_CODE:-0}"
 """
 
+# Stands for rigidstress and its benchmark.
+RIGIDSTRESS = """#!/bin/bash
+echo "rigidstress $*" >> "$LOG"
+while (($#)); do
+  case $1 in
+    -o | --report) echo data > "$2" ;;
+  esac
+  shift
+done
+"""
+
 
 class Sandbox(unittest.TestCase):
     def setUp(self):
@@ -68,6 +79,7 @@ class Sandbox(unittest.TestCase):
         self.stand_in("dpkg-query", '#!/bin/bash\nshift 3\nprintf "%s=installed\\n" "$@"\n')
         self.stand_in("dryer", DRYER, self.programs)
         self.stand_in("agglomerate", AGGLOMERATE, self.programs)
+        self.stand_in("rigidstress", RIGIDSTRESS, self.programs)
 
     def stand_in(self, name, text, folder=None):
         path = (folder or self.bin) / name

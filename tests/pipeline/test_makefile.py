@@ -133,6 +133,20 @@ class Stages(Sandbox):
         self.assertNotEqual(self.make("dry").returncode, 0)
         self.assertIn("absent.toml: no such file", self.make("dry", "SCENE=absent.toml").stderr)
 
+    def test_stress_takes_an_agglomerate_and_a_scene(self):
+        (self.root / "my granule.h5").write_text("x")
+        done = self.make("stress", "AGGLOMERATE=my granule.h5", "THREADS=1")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        out = "pipeline/results/my granule-stress-elongation"
+        self.assertEqual(self.called("rigidstress"),
+                         [f"rigidstress pipeline/scenes/stress-elongation.toml my granule.h5 -o {out}.h5 "
+                          f"--report {out}.json --threads 1"])
+        self.forget()
+        done = self.make("stress", "AGGLOMERATE=my granule.h5", "SCENE=pipeline/scenes/stress-shear.toml", "OUT=a.h5")
+        self.assertIn("stress-shear.toml my granule.h5 -o a.h5", self.called("rigidstress")[0])
+        self.assertIn("which agglomerate?", self.make("stress").stderr)
+        self.assertIn("absent.h5: no such file", self.make("stress", "AGGLOMERATE=absent.h5").stderr)
+
     def test_check_hands_on_the_verdict(self):
         self.assertEqual(self.make("check", "FILE=a b.h5").returncode, 0)
         self.assertEqual(self.called("agglomerate"), ["agglomerate check a b.h5"])
@@ -153,7 +167,7 @@ class Stages(Sandbox):
     def test_help_names_every_target(self):
         text = (ROOT / "pipeline" / "Makefile").read_text()
         phony = set(re.search(r"^\.PHONY: (.*)$", text, re.M).group(1).split()) - {"FORCE"}
-        listed = {line.split()[0] for line in self.make("help").stdout.splitlines() if re.match(r"  [a-z]+  ", line)}
+        listed = {line.split()[0] for line in self.make("help").stdout.splitlines() if re.match(r"  [a-z-]+  ", line)}
         self.assertEqual(listed, phony)
 
     def test_ci_runs_the_test_target(self):
