@@ -8,6 +8,7 @@
 
 #include "common/hydro/dense_hydrodynamics.hpp"
 #include "common/hydro/multipole.hpp"
+#include "rigidstress/matrix_free.hpp"
 
 namespace crumble {
 
@@ -20,6 +21,41 @@ Spheres spheres_of(const Network& network) { return {network.position(), network
 RigidBodyResponse rigid_response(const Network& network, const Vector3& centre, const HydroModel& model) {
   const DenseHydrodynamics hydrodynamics(spheres_of(network), viscosity, model);
   return rigid_body_response(hydrodynamics, network.position(), centre);
+}
+
+// The far field, with a dense factor where memory allows and iterations where not.
+RigidBodyResponse far_field_response(const Network& network, const Vector3& centre, const HydrodynamicChoice& choice,
+                                     const Say& say) {
+  const double needed = memory_needed(network.size(), 1);
+  if (needed <= choice.memory) return rigid_response(network, centre, {});
+  say(
+      fmt::format("a dense factor of {} spheres would need {:.3g} GB, hydrodynamics.memory allows {:.3g} GB: iterating "
+                  "without a matrix",
+                  network.size(), needed * 1e-9, choice.memory * 1e-9));
+  // A thousandth of the far field's own error.
+  const MatrixFreeFarField hydrodynamics(
+      spheres_of(network), viscosity, 1e-5, [&](int column, int columns, int iterations) {
+        say(fmt::format("right-hand side {} of {}: {} iterations", column + 1, columns, iterations));
+      });
+  RigidBodyResponse body = rigid_body_response(hydrodynamics, network.position(), centre);
+  // Loads known to 1e-5 leave a net load of that size, which the free body answers by moving: to round-off.
+  Eigen::Matrix<double, 6, 6> resistance = Eigen::Matrix<double, 6, 6>::Zero();
+  Eigen::Matrix<double, 6, 5> net = Eigen::Matrix<double, 6, 5>::Zero();
+  const double a = mean_radius(spheres_of(network));
+  for (int i = 0; i < network.size(); ++i) {
+    Eigen::Matrix<double, 6, 6> to_centre = Eigen::Matrix<double, 6, 6>::Identity();
+    const Vector3 x = (network.position()[i] - centre) / a;
+    to_centre.block<3, 3>(3, 0) << 0, -x.z(), x.y(), x.z(), 0, -x.x(), -x.y(), x.x(), 0;
+    to_centre.block<3, 3>(3, 3) /= a;
+    resistance += to_centre * body.motion_loads.middleRows(6 * i, 6);
+    net += to_centre * body.free_loads.middleRows(6 * i, 6);
+  }
+  resistance.rightCols<3>() /= a;
+  Eigen::Matrix<double, 6, 5> motion = -resistance.partialPivLu().solve(net);
+  motion.bottomRows<3>() /= a;
+  body.free_loads += body.motion_loads * motion;
+  body.drift += motion;
+  return body;
 }
 
 // Lubrication on relative motion only leaves drag and drift of a rigid body as they are; what it adds are loads by the
@@ -83,11 +119,12 @@ constexpr double lubrication_range = HydroModel{}.lubrication_range;
 // Climbs the orders one by one.
 class Ladder {
  public:
-  Ladder(const Network& network, const Vector3& centre) : network_(network), centre_(centre) {}
+  Ladder(const Network& network, const Vector3& centre, const HydrodynamicChoice& choice, const Say& say)
+      : network_(network), centre_(centre), choice_(choice), say_(say) {}
 
   // The far field is the lowest order; what lubrication changes in it stands for the change before.
   void start() {
-    const RigidBodyResponse far = rigid_response(network_, centre_, {});
+    const RigidBodyResponse far = far_field_response(network_, centre_, choice_, say_);
     response_ = respond(network_, far);
     const Response with = respond(network_, with_relative_lubrication(network_, far, lubrication_range));
     changes_.push_back(tension_change(response_.tension, with.tension));
@@ -114,6 +151,8 @@ class Ladder {
  private:
   const Network& network_;
   Vector3 centre_;
+  const HydrodynamicChoice& choice_;
+  const Say& say_;
   int order_ = 0, first_ = 0;
   Response response_;
   std::vector<double> changes_;
@@ -121,9 +160,9 @@ class Ladder {
 
 constexpr const char* by_far_field = "twice the difference to the far field without lubrication, 3 % at least";
 
-Judged two_rungs(const Network& network, const Vector3& centre, const HydrodynamicChoice& choice) {
-  require_memory(network.size(), 1, choice.memory);
-  const RigidBodyResponse far = rigid_response(network, centre, {});
+Judged two_rungs(const Network& network, const Vector3& centre, const HydrodynamicChoice& choice, const Say& say) {
+  if (choice.method == Method::fts_lubrication) require_memory(network.size(), 1, choice.memory);
+  const RigidBodyResponse far = far_field_response(network, centre, choice, say);
   const Response without = respond(network, far);
   Judged result;
   if (choice.method == Method::fts_lubrication) {
@@ -143,9 +182,9 @@ Judged two_rungs(const Network& network, const Vector3& centre, const Hydrodynam
   return result;
 }
 
-Judged one_order(const Network& network, const Vector3& centre, const HydrodynamicChoice& choice) {
+Judged one_order(const Network& network, const Vector3& centre, const HydrodynamicChoice& choice, const Say& say) {
   require_memory(network.size(), choice.order, choice.memory);
-  Ladder ladder(network, centre);
+  Ladder ladder(network, centre, choice, say);
   // Three changes are what the estimate looks at; lower orders cost little.
   const int first = choice.estimate ? std::max(1, choice.order - 3) : choice.order;
   if (first == 1 && choice.estimate) ladder.start();
@@ -163,11 +202,10 @@ Judged one_order(const Network& network, const Vector3& centre, const Hydrodynam
 }
 
 Judged cheapest(const Network& network, const Vector3& centre, const HydrodynamicChoice& choice, const Say& say) {
-  require_memory(network.size(), 1, choice.memory);
   Judged result;
-  Ladder ladder(network, centre);
+  Ladder ladder(network, centre, choice, say);
   for (int order = 1; order <= highest_multipole_order; ++order) {
-    if (memory_needed(network.size(), order) > choice.memory) {
+    if (order > 1 && memory_needed(network.size(), order) > choice.memory) {
       say(fmt::format(
           "stopped at {}: {} needs {:.3g} GB, hydrodynamics.memory allows {:.3g} GB; its error is "
           "estimated above the tolerance",
@@ -215,9 +253,9 @@ Judged judged_response(const Network& network, const Vector3& centre, const Hydr
     case Method::automatic:
       return cheapest(network, centre, choice, say);
     case Method::multipole:
-      return one_order(network, centre, choice);
+      return one_order(network, centre, choice, say);
     default:
-      return two_rungs(network, centre, choice);
+      return two_rungs(network, centre, choice, say);
   }
 }
 

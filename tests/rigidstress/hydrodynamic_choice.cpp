@@ -72,6 +72,19 @@ TEST(HydrodynamicChoice, RefusesWhatDoesNotFitIntoMemoryAndSaysHowMuch) {
   EXPECT_FALSE(found.within_tolerance);
 }
 
+// Beyond the memory for a dense factor the far field iterates: same loads to its tolerance, in balance to round-off.
+TEST(HydrodynamicChoice, IteratesWhereADenseFactorDoesNotFit) {
+  const Network net = testing::network(testing::raft(6));
+  HydrodynamicChoice c = with(Method::fts);
+  const Judged dense = judged(net, c);
+  c.memory = 1e5;
+  const Judged iterated = judged(net, c);
+  EXPECT_NE((dense.response.tension - iterated.response.tension).norm(), 0);
+  EXPECT_LT((dense.response.tension - iterated.response.tension).norm(), 1e-4 * dense.response.tension.norm());
+  EXPECT_LT((dense.response.drift - iterated.response.drift).norm(), 1e-5);
+  EXPECT_LT(iterated.response.imbalance, 1e-14);
+}
+
 TEST(HydrodynamicChoice, WarnsOfLubricationOnCollectiveMotion) {
   std::string heard;
   const Network net = testing::network(testing::raft(2));
