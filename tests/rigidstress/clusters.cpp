@@ -62,6 +62,18 @@ TEST(Clusters, WorstOrientationIsReachedAndNeverExceeded) {
   }
 }
 
+// A gap of 1e-8 radii is no different from contact: the largest tension moves by about as much, lubrication or not.
+TEST(Clusters, GapOf1em8IsContact) {
+  for (const HydroModel& model : {HydroModel{Rung::multipole, 4}, HydroModel{Rung::fts_relative_lubrication}}) {
+    testing::Cluster apart = testing::octahedron();
+    const double touching = worst(apart, model);
+    for (Vector3& x : apart.position) x *= 1 + 0.5e-8;
+    EXPECT_NEAR(worst(apart, model), touching, 1e-6);
+    for (Vector3& x : apart.position) x *= 1 - 1e-8;  // and so is an overlap
+    EXPECT_NEAR(worst(apart, model), touching, 1e-6);
+  }
+}
+
 TEST(Clusters, LoadsOfAFreeBodyBalance) {
   const Network net = network(testing::raft(3));
   const Response r = response(net, {Rung::multipole, 2});
