@@ -54,7 +54,8 @@ class Hollow(unittest.TestCase):
         with h5py.File(HOLLOW) as file:
             provenance = dict(file["parameters/provenance"].attrs)
         text = lambda value: value.decode() if isinstance(value, bytes) else str(value)
-        self.assertIn("    " + text(provenance["command"]) + "\n", (ROOT / "data/README.md").read_text(encoding="utf-8"))
+        readme = (ROOT / "data/README.md").read_text(encoding="utf-8")
+        self.assertIn("    " + text(provenance["command"]) + "\n", readme)
         self.assertEqual(int(provenance["dirty"]), 0)
         self.assertRegex(text(provenance["git"]), r"^[0-9a-f]{40}$")
 

@@ -1,0 +1,127 @@
+"""Runs of the dryer side by side, and tables of what they gave: what the drying checks share."""
+
+import argparse
+import concurrent.futures
+import csv
+import datetime
+import json
+import math
+import os
+import pathlib
+import shutil
+import statistics
+import subprocess
+import sys
+
+import h5py
+import numpy
+
+ROOT = pathlib.Path(__file__).resolve().parents[3]
+DRYER = "build/release/bin/dryer"
+SCENE = "pipeline/scenes/hollow.toml"
+RESULTS = "pipeline/results/verify"
+
+# Checks that measure CPU seconds run without the companion run that estimates the error, and keep two frames only.
+BARE = {"error.estimate": "false", "output.frames": "0"}
+
+
+def arguments(description, seeds):
+    parser = argparse.ArgumentParser(description=description)
+    parser.add_argument("--seeds", type=int, nargs="+", default=seeds, help="random starts (default: %(default)s)")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="runs side by side (default: all processors)")
+    return parser.parse_args()
+
+
+def run(name, seed, settings):
+    """Dries one droplet; what the report and the file say, the file's contacts counted at two gaps."""
+    out = f"{RESULTS}/{name}-{seed}"
+    command = [DRYER, SCENE, "--seed", str(seed), "--threads", "1", "--quiet"]
+    command += ["-o", f"{out}.h5", "--report", f"{out}.json"]
+    for key, value in {**BARE, **settings}.items():
+        command += ["--set", f"{key}={value}"]
+    # A checkpoint of an interrupted run would make the CPU time too small.
+    (ROOT / f"{out}.h5.checkpoint").unlink(missing_ok=True)
+    environment = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
+    done = subprocess.run(command, cwd=ROOT, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    if done.returncode != 0:
+        raise RuntimeError(f"{' '.join(command)}: exit code {done.returncode}\n{done.stderr}")
+    report = json.loads((ROOT / f"{out}.json").read_text(encoding="utf-8"))
+    results, seconds = report["results"], report["cpu_s"]
+    print(f"  {name}, seed {seed}: {results['contacts']} contacts, {seconds:.1f} s", file=sys.stderr, flush=True)
+    within = {f"within_{gap}_a".replace(".", "_"): pairs_within(ROOT / f"{out}.h5", gap) for gap in (0.02, 0.05)}
+    return {**results, **within, "seed": seed, "cpu_s": seconds}
+
+
+def pairs_within(name, fraction):
+    """Pairs of the last frame with a gap below this fraction of the radius, bonded or not."""
+    with h5py.File(name) as file:
+        position = file["particles/all/position/value"][-1]
+        radius = file["particles/all/radius"][()]
+    i, j = numpy.triu_indices(len(position), 1)
+    gap = numpy.linalg.norm(position[i] - position[j], axis=1) - radius[i] - radius[j]
+    return int(numpy.count_nonzero(gap < fraction * radius.mean()))
+
+
+def run_all(cases, seeds, jobs):
+    """cases: {name: settings}. The runs of each name in the order of the seeds; the longest cases first keep both
+    processors busy, so give them in that order."""
+    (ROOT / RESULTS).mkdir(parents=True, exist_ok=True)
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        futures = {name: [pool.submit(run, name, seed, settings) for seed in seeds] for name, settings in cases.items()}
+        try:
+            return {name: [future.result() for future in rows] for name, rows in futures.items()}
+        except BaseException:
+            pool.shutdown(cancel_futures=True)
+            raise
+
+
+def mean(rows, key):
+    return statistics.fmean(row[key] for row in rows)
+
+
+def spread(rows, key):
+    """Standard deviation between the starts; nothing for a single one."""
+    return statistics.stdev(row[key] for row in rows) if len(rows) > 1 else math.nan
+
+
+def machine():
+    """Date, processor, load and commit of the program, so that a table of CPU seconds can be judged later."""
+    with open("/proc/cpuinfo", encoding="utf-8") as info:
+        names = [line.split(":", 1)[1].strip() for line in info if line.startswith("model name")]
+    version = subprocess.run([DRYER, "--version"], cwd=ROOT, stdout=subprocess.PIPE, text=True, check=True).stdout
+    model = names[0] if names else "unknown processor"
+    return (f"{datetime.date.today()}, {model}, {os.cpu_count()} processors, load {os.getloadavg()[0]:.1f}, "
+            + " ".join(version.splitlines()[:2]))
+
+
+def print_table(heading, rows):
+    """Plain Markdown, to be pasted into README.md."""
+    widths = [max(len(row[k]) for row in [heading] + rows) for k in range(len(heading))]
+    line = lambda cells: "| " + " | ".join(cell.ljust(width) for cell, width in zip(cells, widths)) + " |"
+    print(line(heading))
+    print("|" + "|".join("-" * (width + 2) for width in widths) + "|")
+    for row in rows:
+        print(line(row))
+
+
+def write_csv(name, comments, heading, rows):
+    path = ROOT / RESULTS / name
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with open(path.with_suffix(".csv.tmp"), "w", encoding="utf-8", newline="") as file:
+        file.writelines(f"# {comment}\n" for comment in comments)
+        csv.writer(file, lineterminator="\n").writerows([heading] + rows)
+    path.with_suffix(".csv.tmp").replace(path)
+    print(f"written: {path.relative_to(ROOT)}")
+
+
+def judge(claims):
+    """claims: [(text, holds)]. Prints each; ends the program with 1 if one does not hold."""
+    for text, holds in claims:
+        print(f"{'holds ' if holds else 'FAILED'}  {text}")
+    if not all(holds for _, holds in claims):
+        sys.exit(1)
+
+
+def require_programs():
+    if not shutil.which(str(ROOT / DRYER)):
+        sys.exit(f"{DRYER} is missing; `make -C pipeline build` builds it")
