@@ -23,20 +23,20 @@ RigidBodyResponse rigid_response(const Network& network, const Vector3& centre, 
   return rigid_body_response(hydrodynamics, network.position(), centre);
 }
 
-// The far field, with a dense factor where memory allows and iterations where not.
+// The far field, by a dense factor (N^3) where that is cheaper and fits, else by iterations (N^2): one core of this
+// year takes 7 s to iterate at 1000 spheres and 12 s or more to factorise.
+constexpr int iterate_from = 500;  // spheres
+
 RigidBodyResponse far_field_response(const Network& network, const Vector3& centre, const HydrodynamicChoice& choice,
                                      const Say& say) {
-  const double needed = memory_needed(network.size(), 1);
-  if (needed <= choice.memory) return rigid_response(network, centre, {});
-  say(
-      fmt::format("a dense factor of {} spheres would need {:.3g} GB, hydrodynamics.memory allows {:.3g} GB: iterating "
-                  "without a matrix",
-                  network.size(), needed * 1e-9, choice.memory * 1e-9));
+  const int n = network.size();
+  if (n < iterate_from && memory_needed(n, 1) <= choice.memory) return rigid_response(network, centre, {});
+  say(fmt::format("fts of {} spheres by iteration without a matrix", n));
+  const auto tell = [&](int column, int columns, int iterations) {
+    if (n >= 3000) say(fmt::format("right-hand side {} of {}: {} iterations", column + 1, columns, iterations));
+  };
   // A thousandth of the far field's own error.
-  const MatrixFreeFarField hydrodynamics(
-      spheres_of(network), viscosity, 1e-5, [&](int column, int columns, int iterations) {
-        say(fmt::format("right-hand side {} of {}: {} iterations", column + 1, columns, iterations));
-      });
+  const MatrixFreeFarField hydrodynamics(spheres_of(network), viscosity, 1e-5, tell);
   RigidBodyResponse body = rigid_body_response(hydrodynamics, network.position(), centre);
   // Loads known to 1e-5 leave a net load of that size, which the free body answers by moving: to round-off.
   Eigen::Matrix<double, 6, 6> resistance = Eigen::Matrix<double, 6, 6>::Zero();
