@@ -1,6 +1,6 @@
 #include "rigidstress/stress_file.hpp"
 
-#include <array>
+#include <algorithm>
 
 #include "common/io/agglomerate_reader.hpp"
 
@@ -169,6 +169,19 @@ Eigen::MatrixXd matrix_at(const std::vector<double>& values, std::size_t first, 
   return Eigen::Map<const RowMajor>(values.data() + first, rows, columns);
 }
 
+// Without building the network, which would factorise it.
+int count_bridges(const Prepared& p, const Body& body) {
+  std::vector<int> row(p.particles.size(), -1);
+  for (std::size_t k = 0; k < body.particle.size(); ++k) row[body.particle[k]] = static_cast<int>(k);
+  std::vector<Joint> joints;
+  for (const int k : body.contact) {
+    const Contact& c = p.frame.contacts[k];
+    joints.push_back({.i = row[c.i], .j = row[c.j]});
+  }
+  const std::vector<bool> bridge = network_tree(static_cast<int>(body.particle.size()), joints).bridge;
+  return static_cast<int>(std::count(bridge.begin(), bridge.end(), true));
+}
+
 Prepared restored_agglomerate(const AgglomerateReader& reader, const hdf5::File& file) {
   Prepared p;
   p.particles = reader.particles();
@@ -238,7 +251,7 @@ std::optional<Analysis> restore(const std::filesystem::path& path, const Scene& 
     }
     r.tension = tension_rows(r.load, normal);
     b.loaded.pull_off = pull_off_of(a.prepared, parts[k], scene.material);
-    b.bridges = network_of(a.prepared, parts[k], scene.joint, scene.material).bridges();
+    b.bridges = count_bridges(a.prepared, parts[k]);
     b.body = std::move(parts[k]);
     a.bodies.push_back(std::move(b));
   }

@@ -94,6 +94,8 @@ class Program(unittest.TestCase):
         for key in ("n_max_worst", "n_max_settled", "critical_stress_worst_pa"):
             self.assertAlmostEqual(first["results"]["elongation"][key] / again["results"]["elongation"][key], 1, 9)
         self.assertIn("n_max_worst", again["results"]["uniaxial"])
+        self.assertEqual(first["results"]["statically_determinate_contacts"],
+                         again["results"]["statically_determinate_contacts"])
         self.assertEqual(first["errors"]["n_max_relative"]["value"], again["errors"]["n_max_relative"]["value"])
         # Another structure is another response.
         other, run, _ = self.stress(out, "structure.bending_factor=2", output="other.h5")
