@@ -3,7 +3,7 @@
 
 #include "common/agglomerate/agglomerate.hpp"
 #include "dryer/block_cholesky.hpp"
-#include "dryer/bond_laws.hpp"
+#include "common/contact/bond_laws.hpp"
 #include "dryer/model.hpp"
 
 namespace crumble {

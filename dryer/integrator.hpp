@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "common/agglomerate/agglomerate.hpp"
+#include "common/agglomerate/open_pairs.hpp"
+#include "common/contact/bond_laws.hpp"
 #include "dryer/activity.hpp"
-#include "dryer/bond_laws.hpp"
 #include "dryer/model.hpp"
-#include "dryer/open_pairs.hpp"
 
 namespace crumble {
 

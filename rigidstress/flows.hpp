@@ -8,10 +8,13 @@
 #include <string>
 #include <vector>
 
-#include "rigidstress/orientation.hpp"
+#include "common/hydro/turning_body.hpp"
 #include "rigidstress/response.hpp"
 
 namespace crumble {
+
+// Uniform over all orientations, a pure function of its arguments.
+Quaternion random_orientation(std::uint64_t seed, std::uint32_t number);
 
 // What breaks first, and how much of its pull-off force is used up.
 struct Peak {

@@ -11,7 +11,7 @@ namespace crumble {
 
 // Orientation R (quaternion q): body -> laboratory. With the gradient of the flow in the laboratory
 //   Omega = omega_inf + R (drift . R^T E R),   dq/dt = (0, Omega) q/2
-// (Sanchez Fellay, Twist & Vanni 2013). drift: lower three rows of Response::drift.
+// (Sanchez Fellay, Twist & Vanni 2013). drift: lower three rows of RigidBodyResponse::drift.
 class TurningBody {
  public:
   explicit TurningBody(const Eigen::Matrix<double, 3, 5>& drift, double tolerance = 1e-8)
@@ -78,8 +78,5 @@ class TurningBody {
     return error.norm();
   }
 };
-
-// Uniform over all orientations, a pure function of its arguments.
-Quaternion random_orientation(std::uint64_t seed, std::uint32_t number);
 
 }  // namespace crumble

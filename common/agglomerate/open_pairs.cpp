@@ -1,4 +1,4 @@
-#include "dryer/open_pairs.hpp"
+#include "common/agglomerate/open_pairs.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "dryer/bond_laws.hpp"
+#include "common/contact/bond_laws.hpp"
 
 #include <algorithm>
 
