@@ -8,7 +8,8 @@ namespace crumble {
 
 struct DryingModel {
   Droplet droplet;
-  double viscosity = 1e-3;  // mu, Pa s
+  double viscosity = 1e-3;    // mu, Pa s
+  double thermal_energy = 0;  // kT, J; 0: no Brownian motion, D = 0
   Material material;
   ContactChoice contact;
 };

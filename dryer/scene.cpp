@@ -15,7 +15,10 @@ const ParameterTable& drying_parameters() {
   static const ParameterTable table{
       {"particle",
        "The primary particles: equal spheres.",
-       {P::real("radius", "m", "Radius a").above(0), P::integer("number", "How many, N").at_least(1)}},
+       {P::real("radius", "m", "Radius a").above(0), P::integer("number", "How many, N").at_least(1),
+        P::flag("brownian_motion",
+                "Brownian force and torque (Eqs. 4-5) at liquid.temperature; false: D = 0, Pe = infinity")
+            .by_default(false)}},
       {"material",
        "What the particles are made of (paper, Table 1).",
        {P::real("youngs_modulus", "Pa", "Elastic modulus E").above(0).by_default(3.4e9),
@@ -30,7 +33,8 @@ const ParameterTable& drying_parameters() {
         P::real("surface_tension", "N m-1",
                 "Surface tension sigma. The default is the paper's reduced value; water has 0.072")
             .at_least(0)
-            .by_default(1.75e-4)}},
+            .by_default(1.75e-4),
+        P::real("temperature", "K", "Temperature T of droplet and particles").above(0).by_default(300)}},
       {"droplet",
        "The droplet: R(t)^2 = R0^2 (1 - t/lifetime).",
        {P::real("radius", "m", "Radius R0 at the start").above(0),
@@ -90,6 +94,8 @@ DryingScene drying_scene(const Scene& scene) {
   s.model.material = {scene.real("material.youngs_modulus"), scene.real("material.poisson_ratio"),
                       scene.real("material.surface_energy"), scene.real("material.density")};
   s.model.viscosity = scene.real("liquid.viscosity");
+  if (scene.flag("particle.brownian_motion"))
+    s.model.thermal_energy = boltzmann_constant * scene.real("liquid.temperature");
   s.model.droplet = {scene.real("droplet.radius"), scene.real("droplet.lifetime"),
                      scene.real("liquid.surface_tension")};
   ContactChoice& c = s.model.contact;
