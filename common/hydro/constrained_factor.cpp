@@ -7,11 +7,30 @@ namespace crumble {
 namespace {
 
 template <class Scalar>
-lapack::Matrix<Scalar> converted(Eigen::MatrixXd&& matrix) {
+dense::Matrix<Scalar> converted(Eigen::MatrixXd&& matrix) {
   if constexpr (std::is_same_v<Scalar, double>)
     return std::move(matrix);
   else
     return matrix.cast<Scalar>();
+}
+
+// Eigen multiplies one column by its vector kernels only if it knows at compile time that it is one.
+template <class Left, class Scalar>
+void multiply_add(dense::Block<Scalar> c, const Left& a, const dense::ConstBlock<Scalar>& b, Scalar sign) {
+  if (b.cols() == 1)
+    c.col(0).noalias() += sign * (a * b.col(0));
+  else
+    c.noalias() += sign * (a * b);
+}
+
+template <class Triangle, class Right, class Scalar = typename Right::Scalar>
+dense::Matrix<Scalar> product(const Triangle& a, const Right& b) {
+  dense::Matrix<Scalar> c(b.rows(), b.cols());
+  if (b.cols() == 1)
+    c.col(0).noalias() = a * b.col(0);
+  else
+    c.noalias() = a * b;
+  return c;
 }
 
 }  // namespace
@@ -22,59 +41,54 @@ ConstrainedFactor<Scalar>::ConstrainedFactor(MobilityMatrix mobility, const Eige
       motion_(mobility.motion()),
       has_near_field_(near_field.nonZeros() > 0),
       lower_(converted<Scalar>(std::move(mobility.lower))) {
-  const lapack::Threads threads(order());
-  if (const int minor = lapack::cholesky(order(), lower_.data(), order()); minor != 0)
+  if (const int minor = dense::cholesky<Scalar>(lower_); minor != 0)
     throw NotPositiveDefinite(
         fmt::format("the mobility matrix of {} spheres is not positive definite (leading minor {} of {}): "
                     "overlapping or coincident spheres?",
-                    mobility.spheres, minor, order()));
+                    mobility.spheres, minor, lower_.rows()));
+  dense::solve<Scalar>(c(), lower_.bottomLeftCorner(motion_, interior_));
   if (!has_near_field_) return;
-  near_field_ = near_field.cast<Scalar>();
-  Matrix factor = Matrix::Zero(motion_, motion_);
-  factor.template triangularView<Eigen::Lower>() =
-      lower_.bottomRightCorner(motion_, motion_).template triangularView<Eigen::Lower>();
-  near_.noalias() = near_field_ * factor;
-  lapack::multiply_lower(true, motion_, motion_, c(), order(), near_.data(), motion_);
+  const Matrix factor = c().template triangularView<Eigen::Lower>();
+  near_.noalias() = near_field.cast<Scalar>() * factor;
+  near_ = factor.template triangularView<Eigen::Lower>().transpose() * near_;
   near_.diagonal().array() += Scalar(1);
-  if (const int minor = lapack::cholesky(motion_, near_.data(), motion_); minor != 0)
+  if (const int minor = dense::cholesky<Scalar>(near_); minor != 0)
     throw NotPositiveDefinite(fmt::format(
         "the near-field resistance is not positive semi-definite (leading minor {} of {})", minor, motion_));
 }
 
 template <class Scalar>
 void ConstrainedFactor<Scalar>::solve_resistance(Matrix& x) const {
-  const lapack::Threads threads(static_cast<int>(x.cols()) == 1 ? 1 : order());
-  const int columns = static_cast<int>(x.cols());
-  lapack::solve_lower(false, order(), columns, a(), order(), x.data(), order());
-  lapack::solve_lower(true, order(), columns, a(), order(), x.data(), order());
+  auto inner = x.topRows(interior_), outer = x.bottomRows(motion_);
+  dense::solve<Scalar>(a(), inner);
+  dense::solve<Scalar>(c(), outer);
+  multiply_add<decltype(b()), Scalar>(outer, b(), inner, Scalar(-1));
+  multiply_add<decltype(b().transpose()), Scalar>(inner, b().transpose(), outer, Scalar(-1));
+  dense::solve_transposed<Scalar>(c(), outer);
+  dense::solve_transposed<Scalar>(a(), inner);
 }
 
-// With y = A^-1 w and t = C^-1 B y: velocities u = C v, (I + C^T D C) v = t + C^T b; then C^T f = v - t and
-// A^T f_interior = y - B^T f.
+// With y = A^-1 w, t = B y and g = C^T f: velocities are u = C (g + t). Without D, f = b; with it u = C v,
+// (I + C^T D C) v = t + C^T b and g = v - t. Then A^T f_interior = y - B^T g.
 template <class Scalar>
-void ConstrainedFactor<Scalar>::solve_mobility(Matrix& x, Matrix& velocity) const {
-  const lapack::Threads threads(static_cast<int>(x.cols()) == 1 ? 1 : order());
-  const int columns = static_cast<int>(x.cols()), n = order();
-  lapack::solve_lower(false, interior_, columns, a(), n, x.data(), n);
-  Matrix t = Matrix::Zero(motion_, columns);
-  lapack::multiply_add(false, motion_, columns, interior_, Scalar(1), b(), n, x.data(), n, t.data(), motion_);
-  lapack::solve_lower(false, motion_, columns, c(), n, t.data(), motion_);
-  Matrix v = x.bottomRows(motion_);
-  lapack::multiply_lower(true, motion_, columns, c(), n, v.data(), motion_);
+void ConstrainedFactor<Scalar>::solve_mobility(Matrix& x, Matrix* velocity) const {
+  auto inner = x.topRows(interior_), outer = x.bottomRows(motion_);
+  dense::solve<Scalar>(a(), inner);
+  Matrix t = Matrix::Zero(motion_, x.cols());
+  multiply_add<decltype(b()), Scalar>(t, b(), inner, Scalar(1));
+  const auto C = c().template triangularView<Eigen::Lower>();
+  Matrix g = product(C.transpose(), outer);
   if (has_near_field_) {
-    v += t;
-    lapack::solve_lower(false, motion_, columns, near_.data(), motion_, v.data(), motion_);
-    lapack::solve_lower(true, motion_, columns, near_.data(), motion_, v.data(), motion_);
-    Matrix force = v - t;
-    lapack::solve_lower(true, motion_, columns, c(), n, force.data(), motion_);
-    x.bottomRows(motion_) = force;
-  } else {
-    v += t;
+    g += t;
+    dense::solve<Scalar>(near_, g);
+    dense::solve_transposed<Scalar>(near_, g);
+    g -= t;
+    outer = g;
+    dense::solve_transposed<Scalar>(c(), outer);
   }
-  lapack::multiply_lower(false, motion_, columns, c(), n, v.data(), motion_);
-  velocity = v;
-  lapack::multiply_add(true, interior_, columns, motion_, Scalar(-1), b(), n, x.data() + interior_, n, x.data(), n);
-  lapack::solve_lower(true, interior_, columns, a(), n, x.data(), n);
+  if (velocity != nullptr) *velocity = product(C, Matrix(g + t));
+  multiply_add<decltype(b().transpose()), Scalar>(inner, b().transpose(), g, Scalar(-1));
+  dense::solve_transposed<Scalar>(a(), inner);
 }
 
 template class ConstrainedFactor<float>;

@@ -42,7 +42,7 @@ void DenseHydrodynamics::solve_mobility(const Eigen::MatrixXd& q_motion, const E
   lubrication_.add(at_rest, w_strain, by_strain, stresslet);
   Eigen::MatrixXd x = interior_rows(w_strain);
   x.bottomRows(factor_.motion()) = q_motion - by_strain;
-  factor_.solve_mobility(x, w_motion);
+  factor_.solve_mobility(x, &w_motion);
   q_strain = strain_rows(x);
   lubrication_.add(w_motion, w_strain, by_strain, q_strain);
 }

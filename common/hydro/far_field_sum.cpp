@@ -7,7 +7,7 @@ namespace crumble {
 
 namespace {
 
-constexpr int lanes = 8;
+constexpr int lanes = 16;
 
 // Forces, torques and stresslet tensors (xx, xy, xz, yy, yz, zz) by component, padded with zeros.
 struct Sources {
@@ -54,9 +54,7 @@ Field field_at(double x, double y, double z, double a2, const double* __restrict
     const double inverse = r2 > 0 ? root : 0.0;  // the sphere itself adds nothing
     const double nx = rx * inverse, ny = ry * inverse, nz = rz * inverse;
     const double i2 = inverse * inverse, i3 = i2 * inverse;
-    const double A = a2 * i2, B = as[j] * i2;
-    const double c_ff = (A + B) * (1.0 / 6), c_fs = A * (1.0 / 6) + B * 0.1, c_sf = B * (1.0 / 6) + A * 0.1,
-                 c_ss = (A + B) * 0.1;
+    const double A = a2 * i2, B = as[j] * i2, C = A + B;  // radii squared over 6 r^2
     const double fn = Fx[j] * nx + Fy[j] * ny + Fz[j] * nz, tn = Tx[j] * nx + Ty[j] * ny + Tz[j] * nz;
     const double sx = Sxx[j] * nx + Sxy[j] * ny + Sxz[j] * nz;
     const double sy = Sxy[j] * nx + Syy[j] * ny + Syz[j] * nz;
@@ -64,8 +62,8 @@ Field field_at(double x, double y, double z, double a2, const double* __restrict
     const double sn = sx * nx + sy * ny + sz * nz;
     const double tx = Ty[j] * nz - Tz[j] * ny, ty = Tz[j] * nx - Tx[j] * nz, tz = Tx[j] * ny - Ty[j] * nx;
 
-    const double uf = inverse * (1 + 2 * c_ff), us = i2 * 12 * c_fs;
-    const double un = inverse * (1 - 6 * c_ff) * fn + i2 * (3 - 30 * c_fs) * sn;
+    const double uf = inverse + 2 * inverse * C, us = 12 * i2 * (A + 0.6 * B);
+    const double un = inverse * (1 - 6 * C) * fn + (3 * i2 - 2.5 * us) * sn;
     ux += uf * Fx[j] + i2 * tx + us * sx + un * nx;
     uy += uf * Fy[j] + i2 * ty + us * sy + un * ny;
     uz += uf * Fz[j] + i2 * tz + us * sz + un * nz;
@@ -77,19 +75,20 @@ Field field_at(double x, double y, double z, double a2, const double* __restrict
     oy += gz * nx - gx * nz + on * ny + ot * Ty[j];
     oz += gx * ny - gy * nx + on * nz + ot * Tz[j];
 
-    const double ef = -12 * c_sf * i2, et = -3 * i3, es = i3 * (6 - 120 * c_ss);
-    const double en = -i2 * (3 - 30 * c_sf) * fn + i3 * (210 * c_ss - 15) * sn, eS = 12 * c_ss * i3;
+    const double ef = -12 * i2 * (B + 0.6 * A), et = -3 * i3, eS = 7.2 * C * i3, es = 6 * i3 - 10 * eS;
+    const double en = (17.5 * eS - 15 * i3) * sn - (3 * i2 + 2.5 * ef) * fn;
     const double kx = ef * Fx[j] + et * tx + es * sx + en * nx;
     const double ky = ef * Fy[j] + et * ty + es * sy + en * ny;
     const double kz = ef * Fz[j] + et * tz + es * sz + en * nz;
+    const double e2 = 2 * eS;
     exx += kx * nx + eS * Sxx[j];
     eyy += ky * ny + eS * Syy[j];
     ezz += kz * nz + eS * Szz[j];
-    exy += 0.5 * (kx * ny + ky * nx) + eS * Sxy[j];
-    exz += 0.5 * (kx * nz + kz * nx) + eS * Sxz[j];
-    eyz += 0.5 * (ky * nz + kz * ny) + eS * Syz[j];
+    exy += kx * ny + ky * nx + e2 * Sxy[j];
+    exz += kx * nz + kz * nx + e2 * Sxz[j];
+    eyz += ky * nz + kz * ny + e2 * Syz[j];
   }
-  return {{ux, uy, uz}, {ox, oy, oz}, {exx, exy, exz, eyy, eyz, ezz}};
+  return {{ux, uy, uz}, {ox, oy, oz}, {exx, 0.5 * exy, 0.5 * exz, eyy, 0.5 * eyz, ezz}};
 }
 
 }  // namespace
@@ -103,7 +102,7 @@ FarFieldSum::FarFieldSum(const Spheres& s) : n_(s.size()), padded_((s.size() + l
   radius2_.assign(length, 1.0);
   for (int i = 0; i < n_; ++i) {
     x_[i] = s.position[i].x(), y_[i] = s.position[i].y(), z_[i] = s.position[i].z();
-    radius2_[i] = s.radius[i] * s.radius[i];
+    radius2_[i] = s.radius[i] * s.radius[i] / 6;
     const SelfMobility self(s.radius[i]);
     self_force_.push_back(self.force);
     self_torque_.push_back(self.torque);

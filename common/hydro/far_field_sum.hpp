@@ -20,7 +20,8 @@ class FarFieldSum {
 
  private:
   int n_ = 0, padded_ = 0;
-  std::vector<double> x_, y_, z_, radius2_, self_force_, self_torque_, self_stresslet_;
+  std::vector<double> x_, y_, z_, radius2_,  // radii squared over 6
+      self_force_, self_torque_, self_stresslet_;
 };
 
 }  // namespace crumble

@@ -44,27 +44,25 @@ Eigen::VectorXd LaggedHydrodynamics::product(const Eigen::VectorXd& f) const {
   return w;
 }
 
-Eigen::VectorXd LaggedHydrodynamics::precondition_mobility(const Eigen::VectorXd& r) const {
-  const auto with = [&](const auto& factor) -> Eigen::VectorXd {
-    auto x = typename std::decay_t<decltype(factor)>::Matrix(
-        r.template cast<typename std::decay_t<decltype(factor)>::Matrix::Scalar>());
-    auto velocity = decltype(x)();
-    factor.solve_mobility(x, velocity);
+// The lagged factor works on its own precision.
+template <class Solve>
+Eigen::VectorXd LaggedHydrodynamics::with_factor(const Eigen::VectorXd& r, const Solve& solve) const {
+  const auto on = [&](const auto& factor) -> Eigen::VectorXd {
+    using Matrix = typename std::decay_t<decltype(factor)>::Matrix;
+    Matrix x = r.template cast<typename Matrix::Scalar>();
+    solve(factor, x);
     return x.template cast<double>();
   };
-  if (const auto* single = std::get_if<ConstrainedFactor<float>>(&factor_)) return with(*single);
-  return with(std::get<ConstrainedFactor<double>>(factor_));
+  if (const auto* single = std::get_if<ConstrainedFactor<float>>(&factor_)) return on(*single);
+  return on(std::get<ConstrainedFactor<double>>(factor_));
+}
+
+Eigen::VectorXd LaggedHydrodynamics::precondition_mobility(const Eigen::VectorXd& r) const {
+  return with_factor(r, [](const auto& factor, auto& x) { factor.solve_mobility(x, nullptr); });
 }
 
 Eigen::VectorXd LaggedHydrodynamics::precondition_resistance(const Eigen::VectorXd& r) const {
-  const auto with = [&](const auto& factor) -> Eigen::VectorXd {
-    auto x = typename std::decay_t<decltype(factor)>::Matrix(
-        r.template cast<typename std::decay_t<decltype(factor)>::Matrix::Scalar>());
-    factor.solve_resistance(x);
-    return x.template cast<double>();
-  };
-  if (const auto* single = std::get_if<ConstrainedFactor<float>>(&factor_)) return with(*single);
-  return with(std::get<ConstrainedFactor<double>>(factor_));
+  return with_factor(r, [](const auto& factor, auto& x) { factor.solve_resistance(x); });
 }
 
 // A factor that has become too old is renewed once; a solve that fails with a fresh one is an error.

@@ -56,6 +56,8 @@ class LaggedHydrodynamics : public Hydrodynamics {
 
   void refresh() const;
   Eigen::VectorXd product(const Eigen::VectorXd& f) const;
+  template <class Solve>
+  Eigen::VectorXd with_factor(const Eigen::VectorXd& r, const Solve& solve) const;
   Eigen::VectorXd precondition_mobility(const Eigen::VectorXd& r) const;
   Eigen::VectorXd precondition_resistance(const Eigen::VectorXd& r) const;
   template <class Apply, class Precondition>
