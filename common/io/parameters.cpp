@@ -47,6 +47,23 @@ double as_number(const ParameterValue& value) {
   return std::get<double>(value);
 }
 
+std::string bounds_text(const Parameter& p) {
+  if (p.low && p.high && !p.low->open && !p.high->open) return fmt::format("{} to {}", p.low->value, p.high->value);
+  std::string out;
+  if (p.low) out = fmt::format("{} {}", p.low->open ? ">" : ">=", p.low->value);
+  if (p.low && p.high) out += " and ";
+  if (p.high) out += fmt::format("{} {}", p.high->open ? "<" : "<=", p.high->value);
+  return out;
+}
+
+// ", or "water"": what a real takes beside numbers.
+std::string words_of_a_real(const Parameter& p) {
+  if (p.kind != Parameter::Kind::real || p.choices.empty()) return "";
+  std::vector<std::string> words;
+  for (const auto& word : p.choices) words.push_back(quoted(word));
+  return ", or " + joined(words, " or ");
+}
+
 std::string status_of(const Parameter& p) {
   if (p.fallback) return toml_text(*p.fallback);
   return p.is_optional ? "not set" : "required";
@@ -115,6 +132,12 @@ Parameter Parameter::optional() const {
   return p;
 }
 
+Parameter Parameter::or_word(std::vector<std::string> words) const {
+  Parameter p = *this;
+  p.choices = std::move(words);
+  return p;
+}
+
 Parameter Parameter::above(double bound) const {
   Parameter p = *this;
   p.low = {bound, true};
@@ -142,12 +165,7 @@ Parameter Parameter::at_most(double bound) const {
 std::string Parameter::range() const {
   if (kind == Kind::choice) return joined(choices, " or ");
   if (kind == Kind::flag) return "true or false";
-  if (low && high && !low->open && !high->open) return fmt::format("{} to {}", low->value, high->value);
-  std::string out;
-  if (low) out = fmt::format("{} {}", low->open ? ">" : ">=", low->value);
-  if (low && high) out += " and ";
-  if (high) out += fmt::format("{} {}", high->open ? "<" : "<=", high->value);
-  return out;
+  return bounds_text(*this) + words_of_a_real(*this);
 }
 
 std::string Parameter::what_it_takes() const {
@@ -155,14 +173,14 @@ std::string Parameter::what_it_takes() const {
   if (kind == Kind::flag) return "true or false";
   if (kind == Kind::text) return "text in quotes";
   std::string out = kind == Kind::integer ? "a whole number" : "a number";
-  if (low || high) out += " " + range();
+  if (low || high) out += " " + bounds_text(*this);
   if (!unit.empty()) out += " in " + unit;
-  return out;
+  return out + words_of_a_real(*this);
 }
 
 std::optional<std::string> Parameter::complaint(const ParameterValue& value) const {
-  if (kind == Kind::choice) {
-    const auto& word = std::get<std::string>(value);
+  if (const auto* given = std::get_if<std::string>(&value); given && kind != Kind::text) {
+    const auto& word = *given;
     for (const auto& choice : choices)
       if (word == choice) return {};
     const auto guess = nearest(word, choices);
@@ -173,7 +191,7 @@ std::optional<std::string> Parameter::complaint(const ParameterValue& value) con
   if (!std::isfinite(x)) return "is not finite; it must be " + what_it_takes();
   const bool too_low = low && (low->open ? x <= low->value : x < low->value);
   const bool too_high = high && (high->open ? x >= high->value : x > high->value);
-  if (too_low || too_high) return "must be " + range() + (unit.empty() ? "" : " " + unit);
+  if (too_low || too_high) return "must be " + bounds_text(*this) + (unit.empty() ? "" : " " + unit);
   return {};
 }
 
@@ -220,6 +238,7 @@ const T& Scene::get(const std::string& key, Parameter::Kind kind) const {
   const Entry& e = entry(key);
   if (e.parameter.kind != kind) throw std::logic_error("parameter '" + key + "' is declared with another type");
   if (!e.value) throw std::logic_error("parameter '" + key + "' is read but not set");
+  if (!std::holds_alternative<T>(*e.value)) throw std::logic_error("parameter '" + key + "' is given as a word");
   return std::get<T>(*e.value);
 }
 
@@ -232,6 +251,13 @@ const std::string& Scene::choice(const std::string& key) const {
 const std::string& Scene::text(const std::string& key) const { return get<std::string>(key, Parameter::Kind::text); }
 
 bool Scene::is_set(const std::string& key) const { return entry(key).value.has_value(); }
+
+std::optional<std::string> Scene::word(const std::string& key) const {
+  const Entry& e = entry(key);
+  if (e.parameter.kind != Parameter::Kind::real) throw std::logic_error("parameter '" + key + "' is not a real");
+  const auto* word = e.value ? std::get_if<std::string>(&*e.value) : nullptr;
+  return word ? std::optional(*word) : std::nullopt;
+}
 
 std::string Scene::where(const std::string& key) const { return entry(key).where; }
 

@@ -34,6 +34,9 @@ class Parameter {
   Parameter by_default(const char* value) const;
   Parameter optional() const;
 
+  // A real may also be named by one of these words, of which the program knows the number: viscosity = "water".
+  Parameter or_word(std::vector<std::string> words) const;
+
   // Range of a real or an integer.
   Parameter above(double bound) const;
   Parameter at_least(double bound) const;
@@ -48,7 +51,7 @@ class Parameter {
 
   std::string name, unit, meaning;
   Kind kind = Kind::real;
-  std::vector<std::string> choices;
+  std::vector<std::string> choices;  // of a choice; words of a real
   std::optional<ParameterValue> fallback;
   bool is_optional = false;
   std::optional<Bound> low, high;
@@ -103,6 +106,8 @@ class Scene {
   const std::string& choice(const std::string& key) const;
   const std::string& text(const std::string& key) const;
   bool is_set(const std::string& key) const;
+  // The word that stands for a real, if it was given one.
+  std::optional<std::string> word(const std::string& key) const;
 
   // Where the value comes from: "drying.toml:14", "--set" or "default".
   std::string where(const std::string& key) const;

@@ -140,8 +140,10 @@ class SceneReader {
   void apply(const Override& change) {
     if (!scene_.entries_.contains(change.key)) return unknown_key(change.origin, change.key);
     Scene::Entry& entry = scene_.entries_.at(change.key);
-    const bool is_word =
-        entry.parameter.kind == Parameter::Kind::choice || entry.parameter.kind == Parameter::Kind::text;
+    const auto& words = entry.parameter.choices;
+    const bool is_word = entry.parameter.kind == Parameter::Kind::choice ||
+                         entry.parameter.kind == Parameter::Kind::text ||
+                         std::find(words.begin(), words.end(), change.value) != words.end();
     // A word needs no quotes here, where the shell has taken them.
     if (is_word && change.value.front() != '"' && change.value.front() != '\'')
       return store(entry, change.key, change.value, toml_text(change.value), change.origin);
@@ -237,7 +239,8 @@ class SceneReader {
     if (kind == Parameter::Kind::real && node.is_integer()) value = static_cast<double>(node.as_integer()->get());
     if (kind == Parameter::Kind::integer && node.is_integer()) value = node.as_integer()->get();
     if (kind == Parameter::Kind::flag && node.is_boolean()) value = node.as_boolean()->get();
-    if ((kind == Parameter::Kind::choice || kind == Parameter::Kind::text) && node.is_string())
+    if ((kind == Parameter::Kind::choice || kind == Parameter::Kind::text || !entry.parameter.choices.empty()) &&
+        node.is_string())
       value = node.as_string()->get();
     if (!value) return complain(where, key, shown(node), "must be " + entry.parameter.what_it_takes());
     store(entry, key, *value, shown(node), where);

@@ -56,6 +56,13 @@ const Malformed cases[] = {
      "drying.toml:8: contact.law = 1: must be one of jkr, cundall-strack"},
     {"unknown_choice", "[contact]\nlaw = \"jrk\"", "",
      "drying.toml:8: contact.law = \"jrk\": must be one of jkr, cundall-strack; did you mean 'jkr'?"},
+    {"unknown_word_for_a_number", "viscosity = \"watr\"", "",
+     "drying.toml:7: droplet.viscosity = \"watr\": must be a number > 0 in Pa s, or \"water\" or \"honey\"; did you "
+     "mean "
+     "'water'?"},
+    {"flag_for_a_number_or_word", "viscosity = true", "",
+     "drying.toml:7: droplet.viscosity = true: must be a number > 0 in Pa s, or \"water\" or \"honey\""},
+    {"negative_number_or_word", "", "droplet.viscosity=-1", "--set: droplet.viscosity = -1: must be > 0 Pa s"},
     {"number_for_a_flag", "[contact]\nrolling = 1", "", "drying.toml:8: contact.rolling = 1: must be true or false"},
     {"fraction_for_a_count", "[run]\nframes = 10.5", "",
      "drying.toml:8: run.frames = 10.5: must be a whole number 2 to 10000"},

@@ -69,6 +69,18 @@ TEST(SceneReading, the_last_of_several_overrides_wins) {
   EXPECT_EQ(scene.real("particle.radius"), 3e-8);
 }
 
+TEST(SceneReading, a_real_may_be_named_by_a_word_that_the_program_knows) {
+  EXPECT_FALSE(parse(good_scene).word("droplet.viscosity"));
+  EXPECT_EQ(parse(good_scene).real("droplet.viscosity"), 1e-3);
+  const Scene given = parse(std::string(good_scene) + "viscosity = \"water\"");
+  EXPECT_EQ(given.word("droplet.viscosity"), "water");
+  EXPECT_THROW(given.real("droplet.viscosity"), std::logic_error);
+  EXPECT_EQ(parse(given.resolved()).word("droplet.viscosity"), "water");
+  EXPECT_EQ(parse(good_scene, {parse_override("droplet.viscosity=honey")}).word("droplet.viscosity"), "honey");
+  EXPECT_EQ(parse(good_scene, {parse_override("droplet.viscosity=2")}).real("droplet.viscosity"), 2);
+  EXPECT_NE(parameter_page(table()).find("| 0.001 | Pa s | > 0, or \"water\" or \"honey\" |"), std::string::npos);
+}
+
 TEST(SceneReading, words_need_no_quotes_on_the_command_line) {
   EXPECT_EQ(parse(good_scene, {parse_override("contact.law=cundall-strack")}).choice("contact.law"), "cundall-strack");
   EXPECT_EQ(parse(good_scene, {parse_override("contact.law=\"jkr\"")}).choice("contact.law"), "jkr");
