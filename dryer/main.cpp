@@ -9,6 +9,7 @@
 #include "common/io/provenance.hpp"
 #include "common/numerics/noise.hpp"
 #include "dryer/drying_checkpoint.hpp"
+#include "dryer/regime.hpp"
 #include "dryer/result.hpp"
 #include "dryer/scene.hpp"
 
@@ -97,6 +98,7 @@ int dry(int argc, const char* const* argv) {
   ProgressPrinter progress(stderr, line.check ? line.scene : std::filesystem::path(line.output).stem().string(),
                            line.quiet);
   for (const std::string& fact : describe(scene)) progress.say(fact);
+  report_regime(report, scene);
   if (line.check) {
     const DryingRun builds(scene, 1);
     return 0;

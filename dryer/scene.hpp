@@ -25,8 +25,4 @@ struct DryingScene {
 // Throws InputError naming file, line and keys where values contradict each other.
 DryingScene drying_scene(const Scene& scene);
 
-// What follows from the scene before anything is run, a line each: solids, capillary speed limit against front speed,
-// time scales, regime.
-std::vector<std::string> describe(const DryingScene& scene);
-
 }  // namespace crumble

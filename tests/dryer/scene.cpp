@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "dryer/inertial.hpp"
+#include "dryer/regime.hpp"
 
 using namespace crumble;
 
@@ -31,13 +32,45 @@ TEST_P(MalformedDryingScene, is_refused_with_its_own_message) {
 }
 
 #define DROPLET "[droplet]\nradius = 215e-9\nlifetime = 2.1e-4\n"
+#define BROWNIAN "[particle]\nradius = 10e-9\nnumber = 115\nbrownian_motion = true\n"
 #define PARTICLE "[particle]\nradius = 10e-9\nnumber = 115\n"
 
 INSTANTIATE_TEST_SUITE_P(
     Dryer, MalformedDryingScene,
     ::testing::Values(
-        Malformed{"no_number", "[particle]\nradius = 10e-9\n" DROPLET, "particle.number"},
-        Malformed{"no_lifetime", PARTICLE "[droplet]\nradius = 215e-9\n", "droplet.lifetime"},
+        Malformed{"no_number", "[particle]\nradius = 10e-9\n" DROPLET,
+                  "drying.toml: the number of particles is missing; give one of particle.number, "
+                  "particle.solids_fraction"},
+        Malformed{"number_and_solids_fraction", PARTICLE "solids_fraction = 0.01\n" DROPLET,
+                  "drying.toml:4: particle.solids_fraction = 0.01: the number of particles is already given by "
+                  "particle.number (drying.toml:3); remove one of the two"},
+        Malformed{"less_than_one_particle", "[particle]\nradius = 10e-9\nsolids_fraction = 1e-5\n" DROPLET,
+                  "one alone is a fraction of 0.000101"},
+        Malformed{"too_much_solids", "[particle]\nradius = 10e-9\nsolids_fraction = 0.4\n" DROPLET,
+                  "drying.toml:3: particle.solids_fraction = 0.4: fills 40 %"},
+        Malformed{"more_particles_than_numbers", "[particle]\nradius = 1e-10\nsolids_fraction = 0.25\n" DROPLET,
+                  "means 2.48e+09 particles"},
+        Malformed{"no_speed_of_drying", PARTICLE "[droplet]\nradius = 215e-9\n",
+                  "drying.toml: the speed of drying is missing; give one of droplet.lifetime, "
+                  "droplet.evaporation_constant, droplet.front_speed, droplet.peclet"},
+        Malformed{"lifetime_and_evaporation_constant", PARTICLE DROPLET "evaporation_constant = 2e-10\n",
+                  "drying.toml:7: droplet.evaporation_constant = 2e-10 m2 s-1: the speed of drying is already given by "
+                  "droplet.lifetime (drying.toml:6); remove one of the two"},
+        Malformed{"peclet_and_front_speed", BROWNIAN "[droplet]\nradius = 215e-9\npeclet = 1\nfront_speed = 1e-4\n",
+                  "drying.toml:7: droplet.peclet = 1.0: the speed of drying is already given by droplet.front_speed "
+                  "(drying.toml:8)"},
+        Malformed{"peclet_without_diffusion",
+                  PARTICLE "brownian_motion = false\n[droplet]\nradius = 215e-9\npeclet = 1\n",
+                  "drying.toml:7: droplet.peclet = 1.0: needs diffusion, but particle.brownian_motion = false "
+                  "(drying.toml:4)"},
+        Malformed{"water_that_is_steam", PARTICLE DROPLET "[liquid]\ntemperature = 400\nviscosity = \"water\"\n",
+                  "drying.toml:8: liquid.temperature = 400.0 K: liquid.viscosity = \"water\" (drying.toml:9) is known "
+                  "from 253.15 to 383.15 K"},
+        Malformed{"water_that_is_ice", PARTICLE DROPLET "[liquid]\ntemperature = 240\nsurface_tension = \"water\"\n",
+                  "liquid.surface_tension = \"water\" (drying.toml:9) is known from 248.15 to 647.096 K"},
+        Malformed{"temperature_in_celsius", PARTICLE DROPLET "[liquid]\ntemperature = -5\n", "liquid.temperature"},
+        Malformed{"another_liquid", PARTICLE DROPLET "[liquid]\nviscosity = \"oil\"\n",
+                  "must be a number > 0 in Pa s, or \"water\""},
         Malformed{"particle_larger_than_droplet", "[particle]\nradius = 3e-7\nnumber = 1\n" DROPLET,
                   "drying.toml:2: particle.radius = 3e-07 m: no particle fits into droplet.radius = 2.15e-07 m "
                   "(drying.toml:5)"},

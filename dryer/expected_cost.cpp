@@ -1,0 +1,43 @@
+#include "dryer/expected_cost.hpp"
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+namespace crumble {
+
+namespace {
+
+std::string duration(double seconds) {
+  if (seconds < 90) return fmt::format("{:.2g} s", seconds);
+  if (seconds < 5400) return fmt::format("{:.2g} min", seconds / 60);
+  if (seconds < 2 * 86400) return fmt::format("{:.2g} h", seconds / 3600);
+  return fmt::format("{:.2g} days", seconds / 86400);
+}
+
+std::string rounded(double steps) {
+  return steps < 1e5 ? fmt::format("{:.0f}", std::round(steps / 10) * 10) : fmt::format("{:.1e}", steps);
+}
+
+}  // namespace
+
+std::optional<ExpectedCost> expected_cost(const DryingScene& s) {
+  const double N = static_cast<double>(s.radius.size());
+  if (s.inertial) {
+    const double steps = s.model.droplet.lifetime / s.step;
+    return ExpectedCost{steps, 0.05e-6 * N * steps};
+  }
+  if (s.model.thermal_energy > 0) return {};
+  const double advance = s.model.droplet.initial_radius / s.radius.front() / s.control.largest_displacement;
+  const double steps = advance / 0.8 + 5.5 * N;
+  return ExpectedCost{steps, 3e-6 * std::pow(N, 0.23) * N * steps};
+}
+
+std::string expected_cost_text(const DryingScene& s) {
+  const auto cost = expected_cost(s);
+  if (!cost) return "expected: cost not known";
+  return fmt::format("expected: about {} steps, {} on one core{}", rounded(cost->steps), duration(cost->seconds),
+                     s.estimate_error ? ", and about half as much for the error estimate" : "");
+}
+
+}  // namespace crumble

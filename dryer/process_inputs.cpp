@@ -1,0 +1,94 @@
+#include "dryer/process_inputs.hpp"
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "dryer/drag.hpp"
+#include "dryer/water_surface_tension.hpp"
+#include "dryer/water_viscosity.hpp"
+
+namespace crumble {
+
+namespace {
+
+// The one of several keys that is set; none or two of them is an error.
+std::string only_one_of(const Scene& scene, const std::vector<std::string>& keys, const std::string& what) {
+  std::string found, all;
+  for (const std::string& key : keys) {
+    all += (all.empty() ? "" : ", ") + key;
+    if (!scene.is_set(key)) continue;
+    if (!found.empty())
+      throw scene.error(
+          key, fmt::format("{} is already given by {} ({}); remove one of the two", what, found, scene.where(found)));
+    found = key;
+  }
+  if (found.empty()) throw InputError(fmt::format("{}: {} is missing; give one of {}", scene.file(), what, all));
+  return found;
+}
+
+std::size_t particle_number(const Scene& scene) {
+  const double a = scene.real("particle.radius"), R0 = scene.real("droplet.radius");
+  if (a >= R0)
+    throw scene.error("particle.radius", fmt::format("no particle fits into droplet.radius = {:g} m ({})", R0,
+                                                     scene.where("droplet.radius")));
+  const std::string key =
+      only_one_of(scene, {"particle.number", "particle.solids_fraction"}, "the number of particles");
+  const double capacity = std::pow(R0 / a, 3);  // N at 100 % solids
+  const bool counted = key == "particle.number";
+  const double number = counted ? static_cast<double>(scene.integer(key)) : std::round(scene.real(key) * capacity);
+  if (number < 1)
+    throw scene.error(key, fmt::format("is less than one particle; one alone is a fraction of {:.3g}", 1 / capacity));
+  // Random sequential addition jams at 38 % of the volume that centres can take; long before that it crawls.
+  if (number > 0.3 * capacity)
+    throw scene.error(key, fmt::format("fills {:.0f} % of the droplet with solids; a random start is possible up to "
+                                       "30 %, that is {:.0f} particles",
+                                       100 * number / capacity, 0.3 * capacity));
+  if (number > 2147483647)
+    throw scene.error(key, fmt::format("means {:.3g} particles; they are numbered up to 2147483647", number));
+  return static_cast<std::size_t>(number);
+}
+
+// The number, or water's law at the temperature of the scene.
+double liquid_property(const Scene& scene, const std::string& key, double (*water)(double), double from, double to) {
+  if (!scene.word(key)) return scene.real(key);
+  const double temperature = scene.real("liquid.temperature");
+  if (temperature < from || temperature > to)
+    throw scene.error("liquid.temperature",
+                      fmt::format("{} = \"water\" ({}) is known from {} to {} K; give a temperature in between or a "
+                                  "number for {}",
+                                  key, scene.where(key), from, to, key));
+  return water(temperature);
+}
+
+double lifetime(const Scene& scene, const ProcessInputs& given) {
+  const std::string key =
+      only_one_of(scene, {"droplet.lifetime", "droplet.evaporation_constant", "droplet.front_speed", "droplet.peclet"},
+                  "the speed of drying");
+  const double R0 = scene.real("droplet.radius"), value = scene.real(key);
+  if (key == "droplet.lifetime") return value;
+  if (key == "droplet.evaporation_constant") return R0 * R0 / value;
+  if (key == "droplet.front_speed") return R0 / (2 * value);
+  if (given.thermal_energy == 0)
+    throw scene.error(key, fmt::format("needs diffusion, but particle.brownian_motion = false ({}) makes D = 0 and Pe "
+                                       "infinite; set it to true, or give droplet.lifetime, "
+                                       "droplet.evaporation_constant or droplet.front_speed instead",
+                                       scene.where("particle.brownian_motion")));
+  const double D = given.thermal_energy / drag_coefficient(given.viscosity, scene.real("particle.radius"));
+  return R0 * R0 / (D * value);
+}
+
+}  // namespace
+
+ProcessInputs process_inputs(const Scene& scene) {
+  ProcessInputs p;
+  p.number = particle_number(scene);
+  p.viscosity = liquid_property(scene, "liquid.viscosity", water_viscosity, water_viscosity_from, water_viscosity_to);
+  p.surface_tension = liquid_property(scene, "liquid.surface_tension", water_surface_tension,
+                                      water_surface_tension_from, water_surface_tension_to);
+  if (scene.flag("particle.brownian_motion")) p.thermal_energy = boltzmann_constant * scene.real("liquid.temperature");
+  p.lifetime = lifetime(scene, p);
+  return p;
+}
+
+}  // namespace crumble

@@ -1,0 +1,89 @@
+#include "dryer/regime.hpp"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "dryer/drag.hpp"
+#include "dryer/expected_cost.hpp"
+
+namespace crumble {
+
+DryingRegime drying_regime(const DryingScene& s) {
+  const Droplet& droplet = s.model.droplet;
+  const double a = s.radius.front(), R0 = droplet.initial_radius;
+  double solids = 0;  // sum of a^3
+  for (const double radius : s.radius) solids += radius * radius * radius;
+  DryingRegime r;
+  r.solids_fraction = solids / (R0 * R0 * R0);
+  r.diffusivity = s.model.thermal_energy / drag_coefficient(s.model.viscosity, a);
+  r.evaporation_constant = R0 * R0 / droplet.lifetime;
+  r.peclet = r.diffusivity > 0 ? r.evaporation_constant / r.diffusivity : std::numeric_limits<double>::infinity();
+  r.front_speed = droplet.front_speed(R0);
+  r.packed_front_speed = droplet.front_speed(std::min(R0, std::cbrt(2 * solids)));
+  r.capillary_speed = droplet.surface_tension / (3 * s.model.viscosity);
+  return r;
+}
+
+// At Pe = 10 the paper's granules are compact still (Table 2). Beyond Pe = 100 the steady profile exp(Pe rho^2/4) of
+// diffusion against the front falls by e within 2 % of the radius: nothing but a shell.
+std::string DryingRegime::words() const {
+  std::string text = diffusion_dominated()
+                         ? "diffusion-dominated: Brownian motion keeps the particles spread, expect a compact granule"
+                     : advection_dominated()
+                         ? "advection-dominated: the front sweeps the particles into a shell, expect a hollow granule"
+                         : "between diffusion and advection: expect a thick crust around a thinner core";
+  if (front_speed > capillary_speed)
+    text += "; capillary-limited from the start: the front leaves the particles dry where they are";
+  else if (capillary_limited())
+    text += fmt::format("; capillary-limited at the end: below R = {:.3g} nm the front leaves particles dry",
+                        outrun_radius() * 1e9);
+  return text;
+}
+
+std::vector<std::string> describe(const DryingScene& s) {
+  const DryingRegime r = drying_regime(s);
+  const double a = s.radius.front(), R0 = s.model.droplet.initial_radius, mu = s.model.viscosity;
+  const double sigma = s.model.droplet.surface_tension, force = capillary_force(sigma, a, 0);
+  const double m = 4.0 / 3.0 * std::numbers::pi * a * a * a * s.model.material.density;
+  const BondLaw law(s.model.contact, s.model.material, a, a);
+  std::vector<std::string> lines;
+  lines.push_back(fmt::format("N = {} particles of {:g} nm in a droplet of {:g} nm, phi = {:.2f} % solids",
+                              s.radius.size(), a * 1e9, R0 * 1e9, 100 * r.solids_fraction));
+  lines.push_back(
+      fmt::format("liquid: mu = {:.4g} Pa s, sigma = {:.4g} N/m; D = {:.3g} m2/s", mu, sigma, r.diffusivity));
+  lines.push_back(fmt::format("drying: tau = {:.4g} s, k = {:.4g} m2/s, Pe = {}", s.model.droplet.lifetime,
+                              r.evaporation_constant,
+                              std::isinf(r.peclet) ? "infinity" : fmt::format("{:.4g}", r.peclet)));
+  lines.push_back(
+      fmt::format("the front recedes at {:.2g} m/s, {:.2g} m/s when the solids are packed; capillary force "
+                  "moves a particle at up to sigma/(3 mu) = {:.2g} m/s",
+                  r.front_speed, r.packed_front_speed, r.capillary_speed));
+  lines.push_back(fmt::format("largest capillary force {:.3g} N = {:.2g} of the pull-off force {:.3g} N", force,
+                              force / law.pull_off_force(), law.pull_off_force()));
+  lines.push_back(fmt::format("time scales: inertia {:.2g} s, contact {:.2g} s, drying {:.2g} s",
+                              m / drag_coefficient(mu, a), drag_coefficient(mu, a) / law.normal_stiffness(),
+                              s.model.droplet.lifetime));
+  lines.push_back(r.words());
+  lines.push_back(expected_cost_text(s));
+  return lines;
+}
+
+void report_regime(Report& report, const DryingScene& s) {
+  const DryingRegime r = drying_regime(s);
+  report.result("inputs.number", static_cast<std::int64_t>(s.radius.size()));
+  report.result("inputs.solids_fraction", r.solids_fraction);
+  report.result("inputs.viscosity_pa_s", s.model.viscosity);
+  report.result("inputs.surface_tension_n_per_m", s.model.droplet.surface_tension);
+  report.result("inputs.diffusivity_m2_per_s", r.diffusivity);
+  report.result("inputs.peclet", std::isinf(r.peclet) ? Report::Value(nullptr) : Report::Value(r.peclet));
+  report.result("inputs.lifetime_s", s.model.droplet.lifetime);
+  report.result("inputs.evaporation_constant_m2_per_s", r.evaporation_constant);
+  report.result("inputs.front_speed_m_per_s", r.front_speed);
+  report.result("inputs.capillary_speed_limit_m_per_s", r.capillary_speed);
+  report.result("inputs.regime", r.words());
+}
+
+}  // namespace crumble

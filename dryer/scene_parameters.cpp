@@ -1,0 +1,96 @@
+// The keys of a drying scene.
+#include "dryer/scene.hpp"
+
+namespace crumble {
+
+const ParameterTable& drying_parameters() {
+  using P = Parameter;
+  static const ParameterTable table{
+      {"particle",
+       "The primary particles: equal spheres.",
+       {P::real("radius", "m", "Radius a").above(0),
+        P::integer("number", "How many, N; or particle.solids_fraction").at_least(1).at_most(2147483647).optional(),
+        P::real("solids_fraction", "",
+                "Volume of the particles in that of the droplet at the start: N = fraction (R0/a)^3, rounded")
+            .above(0)
+            .below(1)
+            .optional(),
+        P::flag("brownian_motion",
+                "Brownian force and torque (Eqs. 4-5) at liquid.temperature; false: D = 0, Pe = infinity")
+            .by_default(false)}},
+      {"material",
+       "What the particles are made of (paper, Table 1).",
+       {P::real("youngs_modulus", "Pa", "Elastic modulus E").above(0).by_default(3.4e9),
+        P::real("poisson_ratio", "", "Poisson ratio nu").above(-1).at_most(0.5).by_default(0.5),
+        P::real("surface_energy", "J m-2", "Superficial energy gamma_s of one surface").above(0).by_default(4.8e-3),
+        P::real("density", "kg m-3", "Density rho_p; matters to the inertial integrator only")
+            .above(0)
+            .by_default(1300)}},
+      {"liquid",
+       "The liquid of the droplet. Water's viscosity is that of IAPWS R12-08 at 0.1 MPa, its surface tension that of "
+       "IAPWS R1-76, both at liquid.temperature.",
+       {P::real("temperature", "K", "Temperature T of liquid and particles, uniform").above(0).by_default(300),
+        P::real("viscosity", "Pa s", "Viscosity mu").above(0).or_word({"water"}).by_default(1e-3),
+        P::real("surface_tension", "N m-1",
+                "Surface tension sigma. The default is the paper's reduced value; water's is 400 times as large")
+            .at_least(0)
+            .or_word({"water"})
+            .by_default(1.75e-4)}},
+      {"droplet",
+       "The droplet: R(t)^2 = R0^2 - k t (Eq. 7). How fast it dries is said by exactly one of the last four keys.",
+       {P::real("radius", "m", "Radius R0 at the start").above(0),
+        P::real("lifetime", "s", "Time tau = R0^2/k at which the liquid is gone").above(0).optional(),
+        P::real("evaporation_constant", "m2 s-1",
+                "Evaporation constant k of the radius squared. Tables often hold that of the diameter squared, 4 k")
+            .above(0)
+            .optional(),
+        P::real("front_speed", "m s-1", "Speed -dR/dt = k/(2 R0) of the surface at the start").above(0).optional(),
+        P::real("peclet", "", "Peclet number Pe = R0^2/(D tau) = k/D (Eq. 22), D of Eq. 23").above(0).optional()}},
+      {"contact",
+       "The bond between two touching particles. A limit factor multiplies the critical load of the paper's equation: "
+       "0 takes the resistance away, 1e6 makes it elastic without limit in practice.",
+       {P::choice(
+            "law", {"jkr", "cundall-strack"},
+            "Normal force: JKR (Eq. 10), or a linear spring with the pull-off force of Eq. 6 and Coulomb friction")
+            .by_default("jkr"),
+        P::real("stiffness_factor", "", "cundall-strack: spring stiffness in units of E a").above(0).by_default(1),
+        P::real("friction", "", "cundall-strack: tangent of the friction angle").at_least(0).by_default(0.5),
+        P::real("sliding_limit_factor", "", "Of the critical sliding force (Eq. 14, or Coulomb friction)")
+            .at_least(0)
+            .by_default(1),
+        P::real("twisting_limit_factor", "", "Of the critical twisting torque (Eq. 17)").at_least(0).by_default(1),
+        P::real("rolling_limit_factor", "", "Of the critical rolling torque (Eqs. 20-21)").at_least(0).by_default(1),
+        P::real("rolling_stiffness_factor", "", "Of the rolling stiffness k_r (Eq. 20); the critical torque stays")
+            .above(0)
+            .by_default(1)}},
+      {"integrator",
+       "How the equations are solved.",
+       {P::choice("method", {"overdamped", "inertial"},
+                  "overdamped: no inertia, implicit contacts, adaptive; inertial: the paper's scheme, fixed step, slow")
+            .by_default("overdamped"),
+        P::real("largest_displacement", "", "overdamped: largest motion of a particle in one step, in a")
+            .above(0)
+            .at_most(0.1)
+            .by_default(0.02),
+        P::real("contact_precision", "", "overdamped: overlap within which a new contact is located, in a")
+            .above(0)
+            .at_most(1e-2)
+            .by_default(1e-4),
+        P::real("step", "s", "inertial: the fixed step; without it a fifth of the time scale of the stiffest contact")
+            .above(0)
+            .optional()}},
+      {"error",
+       "How the run judges itself.",
+       {P::flag("estimate", "Also run with doubled step control (about half as long again) and report the difference")
+            .by_default(true)}},
+      {"output",
+       "What the file holds.",
+       {P::integer("frames", "Frames between start and end, evenly spaced in the radius of the droplet")
+            .at_least(0)
+            .at_most(100000)
+            .by_default(50)}},
+      {"run", "The run itself.", {P::integer("seed", "Names the random start").at_least(0).by_default(1)}}};
+  return table;
+}
+
+}  // namespace crumble
