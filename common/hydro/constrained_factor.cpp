@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace crumble {
 
 namespace {
@@ -33,6 +35,21 @@ dense::Matrix<Scalar> product(const Triangle& a, const Right& b) {
   return c;
 }
 
+// Lower triangle of C^T D C. Columns of C^T are rows of C: the sparse product runs along memory.
+template <class Scalar>
+dense::Matrix<Scalar> congruence(const dense::ConstBlock<Scalar>& c, const Eigen::SparseMatrix<double>& D) {
+  constexpr Eigen::Index width = 96;
+  const Eigen::Index n = c.rows();
+  const dense::Matrix<Scalar> C = c.template triangularView<Eigen::Lower>();
+  const dense::Matrix<Scalar> half = dense::Matrix<Scalar>(C.transpose()) * D.template cast<Scalar>();
+  dense::Matrix<Scalar> result(n, n);
+  for (Eigen::Index j = 0; j < n; j += width) {
+    const Eigen::Index rest = n - j, columns = std::min(width, rest);
+    result.block(j, j, rest, columns).noalias() = half.bottomRightCorner(rest, rest) * C.block(j, j, rest, columns);
+  }
+  return result;
+}
+
 }  // namespace
 
 template <class Scalar>
@@ -48,9 +65,7 @@ ConstrainedFactor<Scalar>::ConstrainedFactor(MobilityMatrix mobility, const Eige
                     mobility.spheres, minor, lower_.rows()));
   dense::solve<Scalar>(c(), lower_.bottomLeftCorner(motion_, interior_));
   if (!has_near_field_) return;
-  const Matrix factor = c().template triangularView<Eigen::Lower>();
-  near_.noalias() = near_field.cast<Scalar>() * factor;
-  near_ = factor.template triangularView<Eigen::Lower>().transpose() * near_;
+  near_ = congruence<Scalar>(c(), near_field);
   near_.diagonal().array() += Scalar(1);
   if (const int minor = dense::cholesky<Scalar>(near_); minor != 0)
     throw NotPositiveDefinite(fmt::format(
