@@ -1,0 +1,143 @@
+#include "breaker/contact_network.hpp"
+
+#include <algorithm>
+
+#include "common/agglomerate/bond.hpp"
+
+namespace crumble {
+
+using Eigen::VectorXd;
+
+namespace {
+double smallest(const std::vector<double>& radius) { return *std::min_element(radius.begin(), radius.end()); }
+constexpr double skin = 0.3;  // of the smallest radius
+}  // namespace
+
+ContactNetwork::ContactNetwork(const ContactChoice& choice, const Material& material, const std::vector<double>& radius,
+                               Frame& frame)
+    : radius_(radius), frame_(frame), laws_(choice, material, radius), open_(skin * smallest(radius)) {
+  for (Contact& bond : frame.contacts) evaluate_loads(bond, laws_(bond.i, bond.j));
+  open_.update(frame.position, radius, frame.contacts);
+  make_contacts(0);
+  events_.clear();
+}
+
+void ContactNetwork::add_loads(double length, VectorXd& loads) const {
+  for (const Contact& bond : frame_.contacts) {
+    const double a_i = radius_[bond.i], a_j = radius_[bond.j];
+    const Vector3 force = force_on_j(bond);
+    loads.segment<3>(6 * bond.i) -= force;
+    loads.segment<3>(6 * bond.j) += force;
+    loads.segment<3>(6 * bond.i + 3) += torque_on_i(bond, lever_arm(bond, a_i, a_j)) / length;
+    loads.segment<3>(6 * bond.j + 3) += torque_on_j(bond, lever_arm(bond, a_j, a_i)) / length;
+  }
+}
+
+void ContactNetwork::tell_limits(const Contact& bond, double stress) {
+  if (bond.at_limit == 0) return;
+  std::uint8_t& told = told_[{bond.i, bond.j}];
+  for (int k = 0; k < 3; ++k)
+    if ((bond.at_limit & ~told) >> k & 1)
+      events_.push_back({frame_.time, stress, static_cast<EventKind>(k), bond.i, bond.j, {}});
+  told |= bond.at_limit;
+}
+
+bool ContactNetwork::advance(const VectorXd& q, double length, double stress) {
+  bool lost = false;
+  for (Contact& bond : frame_.contacts) {
+    const BondLaw& law = laws_(bond.i, bond.j);
+    const auto q_i = q.segment<6>(6 * bond.i), q_j = q.segment<6>(6 * bond.j);
+    crumble::advance(bond, law,
+                     {frame_.position[bond.j] - frame_.position[bond.i], q_j.head<3>() - q_i.head<3>(),
+                      q_i.tail<3>() / length, q_j.tail<3>() / length, radius_[bond.i], radius_[bond.j]});
+    if (bond.gap > law.lost_gap()) {
+      events_.push_back({frame_.time, stress, EventKind::rupture, bond.i, bond.j, {}});
+      told_.erase({bond.i, bond.j});
+      open_.open({bond.i, bond.j});
+      bond.born = -1;  // marks it for removal
+      lost = true;
+    } else {
+      tell_limits(bond, stress);
+    }
+  }
+  if (lost) std::erase_if(frame_.contacts, [](const Contact& bond) { return bond.born < 0; });
+  open_.update(frame_.position, radius_, frame_.contacts);
+  const bool made = make_contacts(stress);
+  return made || lost;
+}
+
+bool ContactNetwork::make_contacts(double stress) {
+  std::vector<Pair> made;
+  for (const Pair& pair : open_.pairs()) {
+    const double reach = radius_[pair.i] + radius_[pair.j];
+    if ((frame_.position[pair.j] - frame_.position[pair.i]).squaredNorm() <= reach * reach) made.push_back(pair);
+  }
+  for (const Pair& pair : made) {
+    open_.close(pair);
+    const Contact bond =
+        make_bond(laws_(pair.i, pair.j), pair.i, pair.j, frame_.position[pair.j] - frame_.position[pair.i],
+                  radius_[pair.i], radius_[pair.j], frame_.step);
+    const auto place =
+        std::lower_bound(frame_.contacts.begin(), frame_.contacts.end(), pair, [](const Contact& c, const Pair& p) {
+          return Pair{c.i, c.j} < p;
+        });
+    frame_.contacts.insert(place, bond);
+    events_.push_back({frame_.time, stress, EventKind::made, pair.i, pair.j, {}});
+  }
+  return !made.empty();
+}
+
+double ContactNetwork::touch_fraction(const VectorXd& q, double precision) const {
+  double first = 1;
+  for (const Pair& pair : open_.pairs()) {
+    const double a_i = radius_[pair.i], a_j = radius_[pair.j], allowed = precision * pair_radius(a_i, a_j);
+    const Vector3 before = frame_.position[pair.j] - frame_.position[pair.i];
+    const Vector3 after = before + q.segment<3>(6 * pair.j) - q.segment<3>(6 * pair.i);
+    const double gap = before.norm() - a_i - a_j, end = after.norm() - a_i - a_j;
+    if (end > -allowed) continue;
+    // Aim at half the precision, so that the secant lands within it.
+    first = std::min(first, std::clamp((gap + 0.5 * allowed) / (gap - end), 0.0, 0.9));
+  }
+  return first;
+}
+
+bool ContactNetwork::ruptures(const VectorXd& q) const {
+  for (const Contact& bond : frame_.contacts) {
+    const Vector3 after =
+        frame_.position[bond.j] - frame_.position[bond.i] + q.segment<3>(6 * bond.j) - q.segment<3>(6 * bond.i);
+    if (after.norm() - radius_[bond.i] - radius_[bond.j] > laws_(bond.i, bond.j).lost_gap()) return true;
+  }
+  return false;
+}
+
+std::vector<Event> ContactNetwork::take_events() {
+  std::vector<Event> taken;
+  taken.swap(events_);
+  return taken;
+}
+
+std::vector<std::int64_t> ContactNetwork::limits_told() const {
+  std::vector<std::int64_t> numbers;
+  for (const auto& [pair, bits] : told_) numbers.insert(numbers.end(), {pair.i, pair.j, bits});
+  return numbers;
+}
+
+void ContactNetwork::recall_limits(const std::vector<std::int64_t>& numbers) {
+  for (std::size_t k = 0; k + 2 < numbers.size(); k += 3)
+    told_[{static_cast<std::int32_t>(numbers[k]), static_cast<std::int32_t>(numbers[k + 1])}] =
+        static_cast<std::uint8_t>(numbers[k + 2]);
+}
+
+NetworkState network_state(const std::vector<Contact>& contacts, const BondLaws& laws) {
+  NetworkState s;
+  for (const Contact& bond : contacts) {
+    s.max_tension = std::max(s.max_tension, bond.normal_force);
+    s.max_use = std::max(s.max_use, bond.normal_force / laws(bond.i, bond.j).pull_off_force());
+    s.slipping += bond.at_limit & 1;
+    s.twisting += bond.at_limit >> 1 & 1;
+    s.rolling += bond.at_limit >> 2 & 1;
+  }
+  return s;
+}
+
+}  // namespace crumble

@@ -1,0 +1,102 @@
+#include "breaker/explicit_euler.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "common/agglomerate/bond_increment.hpp"
+
+namespace crumble {
+
+using Eigen::VectorXd;
+
+ExplicitEuler::ExplicitEuler(const BreakupModel& model, const Protocol& protocol, const std::vector<double>& radius,
+                             Frame frame, double step, bool allow_unstable, double coarsening)
+    : Integrator(model, protocol, radius, std::move(frame)) {
+  renew();
+  limit_ = measured_limit();
+  dt_ = coarsening * (step > 0 ? step : 0.5 * limit_);
+  if (!std::isfinite(dt_)) throw std::invalid_argument("without contacts an explicit step must be given");
+  if (dt_ > 0.95 * limit_ && !allow_unstable)
+    throw std::invalid_argument(fmt::format(
+        "a step of {:.3g} s is beyond the stability limit of the explicit integrator, 2/lambda_max = {:.3g} s", dt_,
+        limit_));
+}
+
+void ExplicitEuler::renew() {
+  hydrodynamics_ =
+      std::make_unique<LaggedHydrodynamics>(Spheres{frame_.position, radius_}, model_.viscosity, model_.hydro);
+}
+
+double ExplicitEuler::measured_limit() {
+  const Eigen::Index n = 6 * static_cast<Eigen::Index>(radius_.size());
+  if (frame_.contacts.empty()) return std::numeric_limits<double>::infinity();
+  VectorXd x(n);
+  for (Eigen::Index k = 0; k < n; ++k) x[k] = std::sin(1.0 + 2.7 * static_cast<double>(k * k % 97));
+  double lambda = 0;
+  Matrix6 K_ii, K_ij, K_jj;
+  for (int iteration = 0; iteration < 200; ++iteration) {
+    x /= x.norm();
+    VectorXd force = VectorXd::Zero(n);
+    for (const Contact& bond : frame_.contacts) {
+      const BondIncrement now(bond, network_.laws()(bond.i, bond.j),
+                              {radius_[bond.i], radius_[bond.j], length_, length_},
+                              frame_.position[bond.j] - frame_.position[bond.i], Vector6::Zero(), Vector6::Zero());
+      now.stiffness(K_ii, K_ij, K_jj);
+      const Vector6 x_i = x.segment<6>(6 * bond.i), x_j = x.segment<6>(6 * bond.j);
+      force.segment<6>(6 * bond.i) += K_ii * x_i + K_ij * x_j;
+      force.segment<6>(6 * bond.j) += K_ij.transpose() * x_i + K_jj * x_j;
+    }
+    for (Eigen::Index i = 0; i < n; i += 6) force.segment<3>(i + 3) *= length_;
+    x = hydrodynamics_->mobility(-force, {}).velocity;
+    for (Eigen::Index i = 0; i < n; i += 6) x.segment<3>(i + 3) *= length_;
+    const double next = x.norm();
+    if (std::abs(next - lambda) < 1e-4 * next) return 2 / next;
+    lambda = next;
+  }
+  return 2 / lambda;
+}
+
+Integrator::Memory ExplicitEuler::memory() const {
+  Memory m = Integrator::memory();
+  m.numbers.insert(m.numbers.end(), {dt_, limit_});
+  return m;
+}
+
+void ExplicitEuler::recall(const Memory& m) {
+  Integrator::recall(m);
+  dt_ = m.numbers.at(1);
+  limit_ = m.numbers.at(2);
+}
+
+bool ExplicitEuler::step(double latest_time) {
+  if (statistics_.steps % restart_interval == 0)
+    renew();
+  else
+    hydrodynamics_->update(frame_.position);
+  const double dt = std::min(dt_, latest_time - frame_.time);
+  loads_.setZero(6 * static_cast<Eigen::Index>(radius_.size()));
+  network_.add_loads(length_, loads_);
+  for (Eigen::Index i = 3; i < loads_.size(); i += 6) loads_.segment<3>(i) *= length_;
+  // The flow is at rest where the centre is: else the centre would be carried off, exponentially in a straining flow.
+  const Eigen::Matrix3d gradient = gradient_at(frame_.time);
+  Vector3 centre = Vector3::Zero();
+  for (const Vector3& x : frame_.position) centre += x / static_cast<double>(frame_.position.size());
+  increment_ = dt * hydrodynamics_->mobility(-loads_, {-gradient * centre, gradient}).velocity;
+  if (!increment_.allFinite())
+    throw std::runtime_error(
+        fmt::format("step {} at t = {:.6g} s: velocities are not finite (step of {:.3g} s too "
+                    "large? the stability limit was {:.3g} s)",
+                    frame_.step, frame_.time, dt, limit_));
+  for (Eigen::Index i = 3; i < increment_.size(); i += 6) increment_.segment<3>(i) *= length_;
+  const double largest = increment_.lpNorm<Eigen::Infinity>();
+  if (largest > 0.2 * length_)
+    throw std::runtime_error(
+        fmt::format("step {} at t = {:.6g} s moves a particle by {:.3g} radii: the explicit "
+                    "integrator has become unstable (step {:.3g} s)",
+                    frame_.step, frame_.time, largest / length_, dt));
+  return move(increment_, dt < dt_ ? latest_time : frame_.time + dt);
+}
+
+}  // namespace crumble

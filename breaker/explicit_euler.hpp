@@ -1,0 +1,42 @@
+// The paper's integrator: first order, explicit, fixed step. Slow, kept as the reference of the fast one.
+#pragma once
+
+#include <memory>
+
+#include "breaker/integrator.hpp"
+#include "common/hydro/lagged_hydrodynamics.hpp"
+
+namespace crumble {
+
+// Velocities from the mobility problem of the present positions in the axes of the laboratory: independent of the
+// frame, the matrices and the solver of the implicit integrator.
+class ExplicitEuler : public Integrator {
+ public:
+  // step: s; 0 takes half of the stability limit; `coarsening` multiplies either. Throws std::invalid_argument for a
+  // step beyond the limit unless `allow_unstable`.
+  ExplicitEuler(const BreakupModel& model, const Protocol& protocol, const std::vector<double>& radius, Frame frame,
+                double step, bool allow_unstable = false, double coarsening = 1);
+
+  bool step(double latest_time) override;
+  Frame laboratory() const override { return frame_; }
+
+  Memory memory() const override;
+  void recall(const Memory& memory) override;
+
+  double step_length() const { return dt_; }
+  // 2/lambda_max of the mobility times the elastic stiffness of the contacts at the start, by power iteration, s.
+  double stability_limit() const { return limit_; }
+
+  // The factor inside the hydrodynamics is begun anew here, so that a run can be taken up to the same bits.
+  static constexpr std::int64_t restart_interval = 200;  // steps
+
+ private:
+  double dt_ = 0, limit_ = 0;
+  std::unique_ptr<LaggedHydrodynamics> hydrodynamics_;
+  Eigen::VectorXd loads_, increment_;
+
+  void renew();
+  double measured_limit();
+};
+
+}  // namespace crumble

@@ -1,0 +1,55 @@
+// The default integrator: implicit, adaptive, in a frame that turns with the agglomerate.
+#pragma once
+
+#include "breaker/body_hydrodynamics.hpp"
+#include "breaker/implicit_step.hpp"
+#include "breaker/integrator.hpp"
+
+namespace crumble {
+
+// What one `tolerance` controls, a being the mean radius and l = h_po - h_eq the range of a bond:
+//   local error of a step      gap of a bond  tolerance l,  anything else  0.1 tolerance a
+//   largest motion in a step   2 tolerance a
+//   matrices of the far field  renewed after a motion of 0.05 tolerance a, lubrication after 0.02 tolerance a
+//   a contact that is made     located within an overlap of 0.01 tolerance a
+//   a contact that is lost     within a strain of 0.1 tolerance
+// All errors fall in proportion to it.
+class Implicit : public Integrator {
+ public:
+  Implicit(const BreakupModel& model, const Protocol& protocol, const std::vector<double>& radius, Frame frame,
+           double tolerance);
+
+  bool step(double latest_time) override;
+  Frame laboratory() const override;
+
+  const BodyHydrodynamics& hydrodynamics() const { return hydrodynamics_; }
+  const Quaternion& rotation() const { return rotation_; }
+  double next_step() const { return next_dt_; }
+
+  Memory memory() const override;
+  void recall(const Memory& memory) override;
+
+ private:
+  double tolerance_;
+  BodyHydrodynamics hydrodynamics_;
+  ImplicitStep solver_;
+  Quaternion rotation_ = Quaternion::Identity();  // body -> laboratory
+  double next_dt_ = 0, turn_step_ = 0, last_dt_ = 0, second_last_dt_ = 0;
+  int history_ = 0;        // steps since the last making or loss of a contact, up to 2
+  bool deformed_ = false;  // a contact was at a limit, or the far field renewed: no longer rigid
+  Eigen::VectorXd rate_, last_rate_, increment_, predicted_;
+  std::vector<Vector3> far_reference_, near_reference_;
+
+  struct Attempt {
+    bool accepted, changed;
+    double retry;  // s
+  };
+  Attempt attempt(double dt);
+  double event_step() const;
+  void predict(double dt);
+  double local_error() const;
+  double largest_motion() const;
+  void renew_hydrodynamics();
+};
+
+}  // namespace crumble

@@ -1,0 +1,140 @@
+// Breaks one agglomerate in a flow that grows: scene and agglomerate in, breakup file out.
+#include <fmt/core.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "breaker/breakup_checkpoint.hpp"
+#include "breaker/companion.hpp"
+#include "breaker/result.hpp"
+#include "common/io/agglomerate_reader.hpp"
+#include "common/io/command_line.hpp"
+#include "common/io/errors.hpp"
+#include "common/io/interrupt.hpp"
+#include "common/io/program.hpp"
+
+using namespace crumble;
+
+namespace {
+
+ProgramDescription description() {
+  return {"breaker",
+          "Carries a flexible agglomerate through a flow of growing strength until it breaks: it turns into the flow, "
+          "bends, its contacts slip, roll, break and form anew.",
+          {{"AGGLOMERATE.h5", "the agglomerate: of the dryer, an import, or an earlier breakup"}},
+          {{"breaker breakup.toml hollow.h5 -o breakup.h5 --report breakup.json", "one breakup"},
+           {"breaker breakup.toml hollow.h5 -o quick.h5 --set error.estimate=false --set integrator.tolerance=0.02",
+            "half the time, and no error"},
+           {"breaker breakup.toml breakup.h5 -o more.h5 --set particle.contacts=keep", "a fragment goes on"}},
+          version_text("breaker"),
+          breaker_parameters()};
+}
+
+void put_frame(AgglomerateWriter& writer, const BreakupRun& run, const BreakerScene& scene, Progression& p) {
+  append_frame(writer, run, scene);
+  p.next_frame = scene.frame_interval * (std::floor(run.stress() / scene.frame_interval) + 1);
+  p.last_step = run.statistics().steps;
+}
+
+void put_sample(AgglomerateWriter& writer, const BreakupRun& run, const BreakerScene& scene, Progression& p) {
+  append_sample(writer, run);
+  p.next_sample = scene.sample_interval * (std::floor(run.stress() / scene.sample_interval) + 1);
+  p.last_step = run.statistics().steps;
+}
+
+void advance(BreakupRun& run, const BreakerScene& scene, AgglomerateWriter& writer, Progression& p,
+             ProgressPrinter& progress) {
+  const auto limit_before = run.breakup().first_limit;
+  run.step();
+  if (!limit_before && run.breakup().first_limit && !scene.is_explicit)
+    progress.say(fmt::format("rigid but for elastic contacts up to {:.1f} Pa ({} steps); from here it is flexible",
+                             *run.breakup().first_limit, run.statistics().rigid_steps));
+  if (run.stress() >= p.next_sample) put_sample(writer, run, scene, p);
+  if (run.stress() >= p.next_frame && !run.finished()) put_frame(writer, run, scene, p);
+  progress.update(run.fraction(), run.statistics().steps, [&] {
+    return fmt::format("{:.0f} Pa, {} contacts, largest tension {:.2f} F_po", run.stress(), run.look().contacts,
+                       run.look().network.max_use);
+  });
+}
+
+// Steps to the end. Whatever ends it early leaves a checkpoint.
+void run_to_the_end(BreakupRun& run, const BreakerScene& scene, AgglomerateWriter& writer, Companion* companion,
+                    BreakupCheckpoint& checkpoint, Progression& p, ProgressPrinter& progress) {
+  try {
+    if (writer.frame_count() == 0) {
+      put_frame(writer, run, scene, p);
+      p.next_frame = scene.frame_interval;
+    }
+    while (!run.finished()) {
+      advance(run, scene, writer, p, progress);
+      if (interrupt_signal() && run.can_be_saved())
+        throw Interrupted(interrupt_signal(), fmt::format("stopped at {:g} Pa", run.stress()));
+    }
+    if (companion && !p.companion) p.companion = companion->critical_stress();
+  } catch (const std::exception& error) {
+    if (companion && companion->done()) p.companion = companion->critical_stress();
+    checkpoint.save(run, p);
+    writer.suspend();
+    progress.say(fmt::format("the state is kept in {}; the same command goes on from there", checkpoint.path()));
+    throw;
+  }
+}
+
+int break_up(int argc, const char* const* argv) {
+  const CommandLine line = parse_command_line(description(), argc, argv);
+  if (line.answer) {
+    fmt::print("{}", *line.answer);
+    return 0;
+  }
+  const Scene text = Scene::read(line.scene, breaker_parameters(), line.overrides);
+  const BreakerScene scene = breaker_scene(text);
+  const std::string input = line.inputs.front();
+  const int threads = line.threads > 0 ? line.threads : omp_get_max_threads();
+  omp_set_num_threads(1);  // beside each other the run and its companion use two cores
+  const Provenance provenance = make_provenance("breaker", {argv, argv + argc}, 0, "none", input);
+  Report report("breaker", provenance.version, line.scene, std::nullopt);
+  ProgressPrinter progress(stderr, line.check ? line.scene : std::filesystem::path(line.output).stem().string(),
+                           line.quiet);
+  const Start start = make_start(read_agglomerate(input), input, scene);
+  for (const std::string& fact : describe(scene, start)) progress.say(fact);
+  if (line.check) {
+    const BreakupRun builds(scene, start.agglomerate, 1);
+    return 0;
+  }
+
+  BreakupCheckpoint checkpoint(line.output,
+                               {"breaker", provenance.version, text.resolved() + "\n# of " + provenance.parent_sha256});
+  BreakupRun run(scene, start.agglomerate, 1);
+  Progression p;
+  if (checkpoint.found()) {
+    progress.say("resuming from " + checkpoint.path());
+    checkpoint.resume(run, p);
+  }
+  std::optional<Companion> companion;
+  if (scene.estimate_error && !p.companion) companion.emplace(scene, start.agglomerate, threads > 1);
+  AgglomerateWriter writer = checkpoint.found()
+                                 ? AgglomerateWriter::resume(line.output, p.last_step)
+                                 : AgglomerateWriter(line.output, start.agglomerate.particles,
+                                                     {"breaker", provenance, text.given(), text.resolved(), "none"});
+  run_to_the_end(run, scene, writer, companion ? &*companion : nullptr, checkpoint, p, progress);
+
+  if (run.statistics().steps > p.last_step) {
+    put_sample(writer, run, scene, p);
+    put_frame(writer, run, scene, p);
+  }
+  write_rest(writer, run, scene, start);
+  writer.finish(run.breakup().severed ? "broken" : "relaxed");
+  checkpoint.remove();
+  fill_report(report, scene, start, run, p.companion);
+  if (!line.report.empty()) report.write(line.report);
+  fmt::print("{}", result_text(run, scene, p.companion));
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return run_program("breaker", [&] { return break_up(argc, argv); });
+}

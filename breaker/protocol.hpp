@@ -1,0 +1,39 @@
+// How strong the flow is at which time: a sequence of stages.
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace crumble {
+
+// One stage: the flow stress mu gamma_dot (Pa) starts at `stress` and changes at `rate` (Pa/s) for `duration` (s).
+struct Stage {
+  double stress = 0, rate = 0, duration = std::numeric_limits<double>::infinity();
+};
+
+class Protocol {
+ public:
+  Protocol() = default;
+  explicit Protocol(std::vector<Stage> stages) : stages_(std::move(stages)) {}
+
+  // "rest 0.1; hold 2 for 0.1; ramp 5000": times in s, stresses in Pa, rates in Pa/s, each at a viscosity of 1 Pa s.
+  // A ramp starts at 0 Pa unless it says `ramp 5000 from 100`, and ends with the run unless it says `to 3000`. Times
+  // are multiplied by `stretch` and rates divided. Throws std::invalid_argument saying what was not understood.
+  static Protocol parse(const std::string& text, double stretch = 1);
+
+  double stress(double time) const;         // Pa, at a boundary that of the later stage
+  double stress_before(double time) const;  // at a boundary that of the earlier stage
+  double rate(double time) const;           // Pa/s
+  double stage_end(double time) const;      // s, of the stage that holds just after `time`; infinite for the last ramp
+  double end() const;                       // s
+  // Strain gamma_dot dt summed up to a time: integral of stress over viscosity, for 1 Pa s.
+  double strain(double time) const;
+  const std::vector<Stage>& stages() const { return stages_; }
+
+ private:
+  std::vector<Stage> stages_;
+  std::size_t stage_at(double time, double& begin) const;
+};
+
+}  // namespace crumble

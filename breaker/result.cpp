@@ -1,0 +1,217 @@
+#include "breaker/result.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "breaker/alignment.hpp"
+#include "breaker/body_hydrodynamics.hpp"
+#include "common/agglomerate/fragments.hpp"
+#include "common/agglomerate/morphology.hpp"
+
+namespace crumble {
+
+void append_frame(AgglomerateWriter& writer, const BreakupRun& run, const BreakerScene& scene) {
+  const NetworkState& n = run.look().network;
+  writer.append(run.laboratory(), {{"flow_stress", run.stress()},
+                                   {"shear_rate", run.stress() / scene.model.viscosity},
+                                   {"max_tension", n.max_tension},
+                                   {"slipping_count", static_cast<double>(n.slipping)},
+                                   {"rolling_count", static_cast<double>(n.rolling)}});
+}
+
+void append_sample(AgglomerateWriter& writer, const BreakupRun& run) {
+  const Look& l = run.look();
+  const std::int64_t step = run.statistics().steps;
+  const double time = run.time();
+  const auto sample = [&](const char* name, const char* unit, double value) {
+    writer.sample(name, unit, step, time, value);
+  };
+  sample("flow_stress", "Pa", l.stress);
+  sample("radius_of_gyration", "nm", l.radius_of_gyration);
+  sample("semi_axis_largest", "nm", l.semi_axes[0]);
+  sample("semi_axis_middle", "nm", l.semi_axes[1]);
+  sample("semi_axis_smallest", "nm", l.semi_axes[2]);
+  sample("contacts", "", static_cast<double>(l.contacts));
+  sample("largest_fragment", "", static_cast<double>(l.largest_fragment));
+  sample("max_tension", "N", l.network.max_tension);
+  sample("slipping", "", static_cast<double>(l.network.slipping));
+  sample("twisting", "", static_cast<double>(l.network.twisting));
+  sample("rolling", "", static_cast<double>(l.network.rolling));
+}
+
+void write_rest(AgglomerateWriter& writer, const BreakupRun& run, const BreakerScene& scene, const Start& start) {
+  writer.put("/closing/residual_rms", start.residual_rms);
+  writer.put("/closing/residual_max", start.residual_max);
+  writer.put("/closing/lost_contacts", static_cast<double>(start.lost));
+  writer.put("/closing/scale", start.scale);
+  writer.put_attribute("/flow@type", scene.flow);
+  std::vector<double> gradient;
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 3; ++c) gradient.push_back(scene.model.gradient(r, c));
+  writer.put<double>("/flow/gradient", gradient, {3, 3});
+
+  std::vector<double> time, stress;
+  std::vector<std::int32_t> kind, pair;
+  std::vector<std::int64_t> offset{0}, sizes;
+  for (const Event& e : run.events()) {
+    time.push_back(e.time);
+    stress.push_back(e.stress);
+    kind.push_back(static_cast<std::int32_t>(e.kind));
+    pair.insert(pair.end(), {e.i, e.j});
+    sizes.insert(sizes.end(), e.sizes.begin(), e.sizes.end());
+    offset.push_back(static_cast<std::int64_t>(sizes.size()));
+  }
+  const std::uint64_t count = time.size();
+  writer.put<double>("/events/time", time, {count});
+  writer.put<double>("/events/stress", stress, {count});
+  writer.put<std::int32_t>("/events/kind", kind, {count});
+  writer.put<std::int32_t>("/events/pair", pair, {count, 2});
+  writer.put<std::int64_t>("/events/fragment_offset", offset, {count + 1});
+  writer.put<std::int64_t>("/events/fragment_sizes", sizes, {sizes.size()});
+}
+
+double change(double before, double initial) { return initial > 0 ? before / initial - 1 : 0; }
+
+std::string breakage(const Breakup& b, const BreakerScene& scene) {
+  if (!b.severed) return "none";
+  const double stretch = std::abs(change(b.before.semi_axes[0], b.initial.semi_axes[0]));
+  return stretch < scene.brittle_below ? "brittle" : "ductile";
+}
+
+std::optional<double> relative_error(const Breakup& b, std::optional<double> companion) {
+  if (!b.severed || !companion || *companion <= 0) return std::nullopt;
+  return std::abs(*companion / *b.severed - 1);
+}
+
+namespace {
+
+const char* method_name(Rung rung) {
+  if (rung == Rung::fts) return "fts";
+  return rung == Rung::fts_lubrication ? "fts-lubrication" : "fts-relative-lubrication";
+}
+
+std::string how_estimated(const BreakerScene& scene, const Breakup& b, std::optional<double> companion) {
+  if (!b.severed) return "nothing broke";
+  if (!companion) return "not estimated: error.estimate = false";
+  if (*companion <= 0) return "not estimated: the companion run did not break";
+  return scene.is_explicit ? "difference to the same run with half the step"
+                           : "difference to the same run with doubled tolerance";
+}
+
+void fill_left_out(Report& report, const BreakerScene& scene, const BreakupRun& run) {
+  report.left_out.push_back("Brownian motion: out of scope; a bond of 100 nm spheres is worth far more than kT");
+  report.left_out.push_back("inertia: Stokes flow, velocities follow forces at once");
+  report.left_out.push_back("attraction outside contact: JKR acts from first touch to pull-off only, as in the paper");
+  const auto& s = run.statistics();
+  if (!scene.is_explicit)
+    report.left_out.push_back(fmt::format(
+        "deformation in the first {} of {} steps: hydrodynamic matrices of the rest shape, since no contact "
+        "was at a limit and no particle had moved by {:g} a in the axes of the body",
+        s.rigid_steps, s.steps, 0.05 * scene.tolerance));
+}
+
+}  // namespace
+
+void fill_report(Report& report, const BreakerScene& scene, const Start& start, const BreakupRun& run,
+                 std::optional<double> companion) {
+  const Breakup& b = run.breakup();
+  const IntegratorStatistics s = run.statistics();
+  const auto maybe = [](const std::optional<double>& value) {
+    return value ? Report::Value(*value) : Report::Value(nullptr);
+  };
+  report.steps = s.steps;
+  report.result("critical_stress_pa", maybe(b.severed));
+  report.result("fragment_lost_stress_pa", maybe(b.lost));
+  report.result("first_rupture_stress_pa", maybe(b.first_rupture));
+  report.result("first_limit_stress_pa", maybe(b.first_limit));
+  report.result("largest_stress_pa", run.stress());
+  report.result("contacts_initial", b.contacts_initial);
+  report.result("contacts_at_breakup", b.before.contacts);
+  report.result("rg_change_relative", change(b.before.radius_of_gyration, b.initial.radius_of_gyration));
+  report.result("largest_semi_axis_change_relative", change(b.before.semi_axes[0], b.initial.semi_axes[0]));
+  report.result("smallest_semi_axis_change_relative", change(b.before.semi_axes[2], b.initial.semi_axes[2]));
+  report.result("fragments", b.fragments);
+  report.result("breakage", breakage(b, scene));
+  report.result("strain", run.protocol().strain(run.time()) / scene.model.viscosity);
+  report.result("hydrodynamics", std::string(method_name(scene.model.hydro.rung)));
+  report.result("scaled_by", start.scale);
+  report.result("closing.residual_rms_over_f_po", start.rms_use);
+  report.result("closing.residual_max_over_f_po", start.max_use);
+  report.result("closing.lost_contacts", static_cast<std::int64_t>(start.lost));
+  report.result("closing.made_contacts", static_cast<std::int64_t>(start.unlisted));
+  report.result("steps_rejected", s.rejected);
+  report.result("newton_iterations", s.newton_iterations);
+  report.error("critical_stress_relative", relative_error(b, companion), how_estimated(scene, b, companion));
+  report.error("largest_overlap_over_a", s.largest_overlap, "deepest overlap of two particles at the end of any step");
+  fill_left_out(report, scene, run);
+}
+
+std::string result_text(const BreakupRun& run, const BreakerScene& scene, std::optional<double> companion) {
+  const Breakup& b = run.breakup();
+  std::string text;
+  if (b.severed) {
+    const auto error = relative_error(b, companion);
+    text += fmt::format("critical stress        {:.1f}{} Pa, {}\n", *b.severed,
+                        error ? fmt::format(" +- {:.1f}", *error * *b.severed) : "", breakage(b, scene));
+    text += fmt::format("fragment beyond reach  {:.1f} Pa\n", *b.lost);
+  } else {
+    text += run.ending() + "\n";
+  }
+  if (b.first_limit) text += fmt::format("first contact yields   {:.1f} Pa\n", *b.first_limit);
+  if (b.first_rupture) text += fmt::format("first contact breaks   {:.1f} Pa\n", *b.first_rupture);
+  text += fmt::format("contacts               {} at first, {} before breakup\n", b.contacts_initial, b.before.contacts);
+  text += fmt::format("radius of gyration     {:+.1f} %\n",
+                      100 * change(b.before.radius_of_gyration, b.initial.radius_of_gyration));
+  text += fmt::format("semi-axes              {:+.1f} % largest, {:+.1f} % smallest\n",
+                      100 * change(b.before.semi_axes[0], b.initial.semi_axes[0]),
+                      100 * change(b.before.semi_axes[2], b.initial.semi_axes[2]));
+  text += "fragments             ";
+  for (const std::int64_t size : b.fragments) text += fmt::format(" {}", size);
+  text += "\n";
+  if (relative_error(b, companion)) text += "+-: " + how_estimated(scene, b, companion) + "\n";
+  return text;
+}
+
+std::vector<std::string> describe(const BreakerScene& scene, const Start& start) {
+  const Particles& particles = start.agglomerate.particles;
+  const Frame& frame = start.agglomerate.state;
+  const double a = mean_radius(particles);
+  std::vector<std::string> lines;
+  lines.push_back(fmt::format("{} particles of {:g} nm, {} contacts{}", particles.size(), a * 1e9,
+                              frame.contacts.size(),
+                              start.scale != 1 ? fmt::format(", scaled by {:g}", start.scale) : ""));
+  if (start.closed)
+    lines.push_back(
+        fmt::format("contacts closed: self-stress {:.2g} F_po rms, {:.2g} F_po at most; {} contacts could "
+                    "not be kept, {} new ones touch",
+                    start.rms_use, start.max_use, start.lost, start.unlisted));
+  if (scene.model.hydro.rung == Rung::fts_lubrication)
+    lines.push_back(
+        "warning: fts-lubrication acts on the collective motion of near pairs and adds up over neighbours; "
+        "it overestimates the loads of an almost rigid cluster. It is here to reproduce Eq. 9.");
+  if (scene.model.gradient.isZero()) return lines;
+  const double mu = scene.model.viscosity;
+  const double stress = 1e3;
+  double time = 0;
+  for (const Stage& stage : scene.protocol.stages()) {
+    if (stage.rate > 0 && stage.stress + stage.rate * stage.duration >= stress) {
+      time += (stress - stage.stress) / stage.rate;
+      break;
+    }
+    time += stage.duration;
+  }
+  const double available = std::isfinite(time) ? scene.protocol.strain(time) / mu : 0;
+  BodyHydrodynamics hydrodynamics(particles.radius, mu, scene.model.hydro);
+  hydrodynamics.renew_far_field(frame.position);
+  const auto needed = alignment_strain(hydrodynamics.turning(), scene.model.gradient);
+  lines.push_back(fmt::format("strain available up to {:g} Pa: {:.3g}; needed to turn into the flow: {}", stress,
+                              available, needed ? fmt::format("{:.3g}", *needed) : "it turns for ever"));
+  if (needed && available < *needed)
+    lines.push_back(
+        "warning: it may break before it is aligned; a slower ramp or a lower viscosity gives it more strain");
+  return lines;
+}
+
+}  // namespace crumble

@@ -1,0 +1,32 @@
+// What a breakup tells: frames, series and events in the file, the report, the table on the screen.
+#pragma once
+
+#include <optional>
+
+#include "breaker/run.hpp"
+#include "breaker/start.hpp"
+#include "common/io/agglomerate_writer.hpp"
+#include "common/io/report.hpp"
+
+namespace crumble {
+
+void append_frame(AgglomerateWriter& writer, const BreakupRun& run, const BreakerScene& scene);
+void append_sample(AgglomerateWriter& writer, const BreakupRun& run);
+// Closing, flow and events: once, at the end.
+void write_rest(AgglomerateWriter& writer, const BreakupRun& run, const BreakerScene& scene, const Start& start);
+
+// Relative change of a length from the start of the flow to the last instant when the agglomerate was whole.
+double change(double before, double initial);
+// "brittle", "ductile" or "none".
+std::string breakage(const Breakup& breakup, const BreakerScene& scene);
+
+// companion: critical stress of the same run with coarser control; -1: it did not break; nothing: there was none.
+std::optional<double> relative_error(const Breakup& breakup, std::optional<double> companion);
+void fill_report(Report& report, const BreakerScene& scene, const Start& start, const BreakupRun& run,
+                 std::optional<double> companion);
+std::string result_text(const BreakupRun& run, const BreakerScene& scene, std::optional<double> companion);
+
+// What follows from scene and agglomerate before anything is run, a line each.
+std::vector<std::string> describe(const BreakerScene& scene, const Start& start);
+
+}  // namespace crumble

@@ -1,0 +1,38 @@
+// What a breaker scene may say.
+#pragma once
+
+#include <optional>
+
+#include "breaker/model.hpp"
+#include "breaker/protocol.hpp"
+#include "common/io/parameters.hpp"
+
+namespace crumble {
+
+const ParameterTable& breaker_parameters();
+
+struct BreakerScene {
+  std::optional<double> radius;  // m
+  bool keep_contacts = false;
+  double largest_gap = 0.2;  // of listed contacts, in a
+  BreakupModel model;
+  std::string flow;  // as the agglomerate file calls it
+  Protocol protocol;
+  bool is_explicit = false;
+  double tolerance = 0.01;
+  double step = 0;  // explicit only, s; 0: half the stability limit
+  bool allow_unstable = false;
+  double reach = 1;                    // gap beyond which a fragment is lost, in a
+  std::int64_t smallest_fragment = 0;  // particles; 0: a twentieth of all, at least one
+  bool until_stable = false;
+  double stable_strain = 20;    // without rupture, at constant stress
+  double largest_stress = 1e5;  // Pa
+  double brittle_below = 0.05;  // relative change of the largest semi-axis
+  bool estimate_error = true;
+  double sample_interval = 5, frame_interval = 50;  // Pa
+};
+
+// Throws InputError naming file, line and keys where values contradict each other.
+BreakerScene breaker_scene(const Scene& scene);
+
+}  // namespace crumble
