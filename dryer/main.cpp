@@ -2,12 +2,14 @@
 #include <fmt/core.h>
 
 #include <filesystem>
+#include <string_view>
 
 #include "common/io/command_line.hpp"
 #include "common/io/interrupt.hpp"
 #include "common/io/program.hpp"
 #include "common/io/provenance.hpp"
 #include "common/numerics/noise.hpp"
+#include "dryer/continuum_command.hpp"
 #include "dryer/drying_checkpoint.hpp"
 #include "dryer/regime.hpp"
 #include "dryer/result.hpp"
@@ -26,7 +28,9 @@ ProgramDescription description() {
           {{"dryer hollow.toml -o hollow.h5 --seed 3 --report hollow.json", "dry one granule"},
            {"dryer hollow.toml -o soft.h5 --set contact.rolling_limit_factor=0",
             "the same droplet without rolling resistance"},
-           {"dryer hollow.toml --check", "say what the scene means, run nothing"}},
+           {"dryer hollow.toml --check", "say what the scene means, run nothing"},
+           {"dryer continuum --peclet 1 --theta 0.2,0.4 -o continuum.csv",
+            "concentration of point particles; dryer continuum --help explains"}},
           version_text("dryer"),
           drying_parameters()};
 }
@@ -129,5 +133,6 @@ int dry(int argc, const char* const* argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return run_program("dryer", [&] { return dry(argc, argv); });
+  const bool continuum = argc > 1 && std::string_view(argv[1]) == "continuum";
+  return run_program("dryer", [&] { return continuum ? continuum_command(argc - 1, argv + 1) : dry(argc, argv); });
 }

@@ -1,0 +1,144 @@
+#include "dryer/continuum_command.hpp"
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <filesystem>
+#include <fstream>
+
+#include "common/io/errors.hpp"
+#include "common/io/provenance.hpp"
+#include "common/io/report.hpp"
+#include "dryer/continuum.hpp"
+
+namespace crumble {
+
+namespace {
+
+struct Raw {
+  std::string peclet, theta, output, report;
+};
+
+InputError misuse(const std::string& wrong) {
+  return InputError(
+      fmt::format("dryer continuum: {}\nusage: dryer continuum --peclet P --theta T1,T2,... -o FILE.csv\n"
+                  "dryer continuum --help explains",
+                  wrong));
+}
+
+double number(const std::string& option, std::string_view text) {
+  double value = 0;
+  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (problem != std::errc() || end != text.data() + text.size())
+    throw misuse(fmt::format("{}: '{}' is not a number", option, text));
+  return value;
+}
+
+std::vector<double> numbers(const std::string& option, std::string_view list) {
+  std::vector<double> values;
+  for (std::size_t start = 0, comma = 0; comma != std::string_view::npos; start = comma + 1) {
+    comma = list.find(',', start);
+    values.push_back(number(option, list.substr(start, comma - start)));
+  }
+  return values;
+}
+
+void check_file(const std::string& option, const std::string& file) {
+  const auto folder = std::filesystem::path(file).parent_path();
+  std::error_code ignored;
+  if (!folder.empty() && !std::filesystem::is_directory(folder, ignored))
+    throw misuse(fmt::format("{} {}: there is no folder '{}'", option, file, folder.string()));
+  if (std::filesystem::is_directory(file, ignored)) throw misuse(fmt::format("{} {}: this is a folder", option, file));
+}
+
+std::string csv(const std::vector<ContinuumProfile>& profiles) {
+  std::string text = "theta,rho,gamma\n";
+  for (const auto& p : profiles)
+    for (std::size_t row = 0; row < p.rho.size(); ++row)
+      text += fmt::format("{:g},{:.12g},{:.12g}\n", p.theta, p.rho[row], p.gamma[row]);
+  return text;
+}
+
+// Under a temporary name first, then renamed: a half-written file never looks finished.
+void write(const std::string& file, const std::string& text) {
+  const std::string temporary = file + ".tmp";
+  {
+    std::ofstream out(temporary, std::ios::binary);
+    out << text;
+    out.flush();
+    if (!out) {
+      std::remove(temporary.c_str());
+      throw std::runtime_error("cannot write " + file);
+    }
+  }
+  std::filesystem::rename(temporary, file);
+}
+
+std::string table(const std::vector<ContinuumProfile>& profiles) {
+  std::string text = "theta     Gamma(0)    Gamma(1)    error\n";
+  for (const auto& p : profiles)
+    text += fmt::format("{:<8g}  {:<10.6g}  {:<10.6g}  {:.0e}\n", p.theta, p.gamma.front(), p.gamma.back(), p.error);
+  return text + "error: of Gamma, a third of the difference to half the cells and half the steps\n";
+}
+
+void write_report(const std::string& file, Report& report, double peclet,
+                  const std::vector<ContinuumProfile>& profiles) {
+  std::vector<double> theta, center, wall;
+  double error = 0, defect = 0;
+  for (const auto& p : profiles) {
+    theta.push_back(p.theta), center.push_back(p.gamma.front()), wall.push_back(p.gamma.back());
+    error = std::max(error, p.error), defect = std::max(defect, std::abs(p.mass_defect));
+  }
+  report.result("peclet", peclet);
+  report.result("theta", theta);
+  report.result("gamma_center", center);
+  report.result("gamma_wall", wall);
+  report.error("gamma", error, "a third of the difference to half the cells and half the steps, largest of all rows");
+  report.error("mass_relative", defect, "change of the number of particles, largest of all theta");
+  report.left_out.push_back("the size of the particles: the continuum model counts centres up to the surface");
+  report.write(file);
+}
+
+}  // namespace
+
+int continuum_command(int argc, const char* const* argv) {
+  CLI::App app(
+      "The continuum model of drying (Vasquez Giuliano et al. 2022, Eqs. 24-30): concentration Gamma = C/C0 of point "
+      "particles against rho = r/R(t) at theta = t/lifetime, as CSV with the columns theta, rho, gamma.",
+      "dryer continuum");
+  Raw raw;
+  app.add_option("--peclet", raw.peclet, "Peclet number R0^2/(D lifetime)")->type_name("P");
+  app.add_option("--theta", raw.theta, "times, increasing, at least 0 and below 1")->type_name("T1,T2,...");
+  app.add_option("-o,--output", raw.output, "where the profiles go")->type_name("FILE.csv");
+  app.add_option("--report", raw.report, "results, their errors and the cost of the run as JSON")
+      ->type_name("FILE.json");
+  app.footer("Example:\n  dryer continuum --peclet 1 --theta 0.2,0.4 -o continuum.csv");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    fmt::print("{}", app.help());
+    return 0;
+  } catch (const CLI::ParseError& error) {
+    throw misuse(error.what());
+  }
+  if (raw.peclet.empty() || raw.theta.empty() || raw.output.empty())
+    throw misuse("--peclet, --theta and -o are all needed");
+  const double peclet = number("--peclet", raw.peclet);
+  const std::vector<double> theta = numbers("--theta", raw.theta);
+  check_file("-o", raw.output);
+  if (!raw.report.empty()) check_file("--report", raw.report);
+  if (raw.report == raw.output) throw misuse("-o and --report name the same file");
+  Report report("dryer continuum", make_provenance("dryer", {argv, argv + argc}, 0, "none").version, "", {});
+  try {
+    const auto profiles = continuum_profiles(peclet, theta);
+    write(raw.output, csv(profiles));
+    if (!raw.report.empty()) write_report(raw.report, report, peclet, profiles);
+    fmt::print("{}", table(profiles));
+  } catch (const std::domain_error& error) {
+    throw misuse(error.what());
+  }
+  return 0;
+}
+
+}  // namespace crumble
