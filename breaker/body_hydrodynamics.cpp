@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "breaker/triangular.hpp"
+
 namespace crumble {
 
 using Eigen::MatrixXd;
@@ -31,11 +33,7 @@ void BodyHydrodynamics::renew_far_field(const std::vector<Vector3>& position) {
   const Eigen::LLT<Eigen::Ref<MatrixXd>> factor(mobility_.lower);
   if (factor.info() != Eigen::Success)
     throw std::runtime_error("the far-field mobility is not positive definite: do spheres overlap?");
-  MatrixXd inverse = MatrixXd::Identity(motions, motions);
-  mobility_.lower.bottomRightCorner(motions, motions).triangularView<Eigen::Lower>().solveInPlace(inverse);
-  far_resistance_.setZero(motions, motions);
-  far_resistance_.selfadjointView<Eigen::Lower>().rankUpdate(inverse.transpose());
-  far_resistance_.triangularView<Eigen::StrictlyUpper>() = far_resistance_.transpose();
+  far_resistance_ = inverse_from_factor(mobility_.lower.bottomRightCorner(motions, motions));
   MatrixXd strain = -Eigen::Matrix<double, 5, 5>::Identity().replicate(reduced_.size(), 1);
   mobility_.lower.topLeftCorner(strains, strains).triangularView<Eigen::Lower>().solveInPlace(strain);
   const MatrixXd motion = -mobility_.lower.bottomLeftCorner(motions, strains) * strain;

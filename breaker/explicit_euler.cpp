@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <stdexcept>
 
 #include "common/agglomerate/bond_increment.hpp"
@@ -16,8 +19,10 @@ ExplicitEuler::ExplicitEuler(const BreakupModel& model, const Protocol& protocol
     : Integrator(model, protocol, radius, std::move(frame)) {
   renew();
   limit_ = measured_limit();
-  dt_ = coarsening * (step > 0 ? step : 0.5 * limit_);
-  if (!std::isfinite(dt_)) throw std::invalid_argument("without contacts an explicit step must be given");
+  // Without contacts, half of what a free sphere on one of them would be allowed.
+  const double loose =
+      6 * std::numbers::pi * model.viscosity * length_ / Jkr(model.material, length_).tangent_stiffness();
+  dt_ = coarsening * (step > 0 ? step : 0.5 * std::min(limit_, loose));
   if (dt_ > 0.95 * limit_ && !allow_unstable)
     throw std::invalid_argument(fmt::format(
         "a step of {:.3g} s is beyond the stability limit of the explicit integrator, 2/lambda_max = {:.3g} s", dt_,

@@ -54,7 +54,7 @@ void Implicit::renew_hydrodynamics() {
   std::vector<Vector3> expected = frame_.position;
   for (std::size_t p = 0; p < expected.size(); ++p)
     expected[p] += predicted_.segment<3>(6 * static_cast<Eigen::Index>(p));
-  if (farthest(expected, far_reference_) > 0.05 * tolerance_ * length_) {
+  if (farthest(expected, far_reference_) > 0.1 * tolerance_ * length_) {
     hydrodynamics_.renew_far_field(expected);
     far_reference_ = near_reference_ = expected;
     deformed_ = true;
@@ -127,14 +127,14 @@ Implicit::Attempt Implicit::attempt(double dt) {
   VectorXd load = hydrodynamics_.free_loads() * strain;
   if (theta > 0) load += theta * (hydrodynamics_.resistance() * rate_);
   increment_ = predicted_;
-  const auto outcome =
-      solver_.solve(frame_, {hydrodynamics_.resistance(), (1 + theta) / dt, load}, 1e-10 * length_, increment_);
+  const auto outcome = solver_.solve(frame_, {hydrodynamics_.resistance(), (1 + theta) / dt, load},
+                                     1e-6 * tolerance_ * length_, increment_);
   statistics_.newton_iterations += outcome.iterations;
   statistics_.factorisations += outcome.factorisations;
   if (!outcome.converged) return {false, false, 0.25 * dt};
 
   const double smallest = event_step();
-  const double moved = largest_motion() / (2 * tolerance_ * length_);
+  const double moved = largest_motion() / (4 * tolerance_ * length_);
   if (moved > 1.2) return {false, false, std::max(0.1, 0.9 / moved) * dt};
   if (dt > smallest) {
     const double fraction = network_.touch_fraction(increment_, 0.01 * tolerance_);

@@ -36,11 +36,11 @@ void ImplicitStep::set_gradient(const Frame& frame, const Problem& problem, cons
   }
 }
 
-bool ImplicitStep::factorise(const Frame& frame, const Problem& problem, const VectorXd& q) {
+bool ImplicitStep::factorise(const Frame& frame, const Problem& problem, const VectorXd& q, Curvature curvature) {
   matrix_ = problem.drag * problem.resistance;
   Matrix6 K_ii, K_ij, K_jj;
   for (const Contact& bond : frame.contacts) {
-    increment(frame, bond, q).stiffness(K_ii, K_ij, K_jj);
+    increment(frame, bond, q).stiffness(K_ii, K_ij, K_jj, curvature);
     matrix_.block<6, 6>(6 * bond.i, 6 * bond.i) += K_ii;
     matrix_.block<6, 6>(6 * bond.j, 6 * bond.j) += K_jj;
     matrix_.block<6, 6>(6 * bond.j, 6 * bond.i) += K_ij.transpose();  // i < j: the lower triangle
@@ -62,7 +62,10 @@ ImplicitStep::Outcome ImplicitStep::solve(const Frame& frame, const Problem& pro
   for (outcome.iterations = 1; outcome.iterations <= 50; ++outcome.iterations) {
     set_gradient(frame, problem, q);
     ++outcome.factorisations;
-    if (!factorise(frame, problem, q)) return outcome;
+    if (!factorise(frame, problem, q, Curvature::full)) {
+      ++outcome.factorisations;  // not convex here: go downhill by the part that always is
+      if (!factorise(frame, problem, q, Curvature::convex)) return outcome;
+    }
     correction_ = -gradient_;
     matrix_.triangularView<Eigen::Lower>().solveInPlace(correction_);
     matrix_.triangularView<Eigen::Lower>().transpose().solveInPlace(correction_);

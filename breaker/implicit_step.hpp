@@ -43,7 +43,7 @@ class ImplicitStep {
   BondIncrement increment(const Frame& frame, const Contact& bond, const Eigen::VectorXd& q) const;
   double bond_energy(const Frame& frame, const Eigen::VectorXd& q) const;
   void set_gradient(const Frame& frame, const Problem& problem, const Eigen::VectorXd& q);
-  bool factorise(const Frame& frame, const Problem& problem, const Eigen::VectorXd& q);
+  bool factorise(const Frame& frame, const Problem& problem, const Eigen::VectorXd& q, Curvature curvature);
 };
 
 }  // namespace crumble

@@ -109,7 +109,7 @@ void fill_left_out(Report& report, const BreakerScene& scene, const BreakupRun& 
     report.left_out.push_back(fmt::format(
         "deformation in the first {} of {} steps: hydrodynamic matrices of the rest shape, since no contact "
         "was at a limit and no particle had moved by {:g} a in the axes of the body",
-        s.rigid_steps, s.steps, 0.05 * scene.tolerance));
+        s.rigid_steps, s.steps, 0.1 * scene.tolerance));
 }
 
 }  // namespace

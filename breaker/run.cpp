@@ -9,6 +9,7 @@
 #include "breaker/implicit.hpp"
 #include "common/agglomerate/fragments.hpp"
 #include "common/agglomerate/morphology.hpp"
+#include "common/io/errors.hpp"
 
 namespace crumble {
 
@@ -59,9 +60,14 @@ BreakupRun::BreakupRun(const BreakerScene& scene, const Agglomerate& start, doub
 
 std::unique_ptr<Integrator> BreakupRun::integrate(const Piece& piece, Frame frame) const {
   const std::vector<double> radius = radii_of(particles_, piece.member);
-  if (scene_.is_explicit)
-    return std::make_unique<ExplicitEuler>(scene_.model, protocol_, radius, std::move(frame), scene_.step,
-                                           scene_.allow_unstable, coarsening_);
+  if (scene_.is_explicit) {
+    try {
+      return std::make_unique<ExplicitEuler>(scene_.model, protocol_, radius, std::move(frame), scene_.step,
+                                             scene_.allow_unstable, coarsening_);
+    } catch (const std::invalid_argument& error) {
+      throw InputError(std::string("integrator.step: ") + error.what());
+    }
+  }
   return std::make_unique<Implicit>(scene_.model, protocol_, radius, std::move(frame), scene_.tolerance * coarsening_);
 }
 

@@ -23,6 +23,9 @@ const ParameterTable& breaker_parameters() {
                   "close: all listed contacts start at the gap free of force and without history; keep: gaps and "
                   "histories of the file go on, as after an earlier breakup (no scaling)")
             .by_default("close"),
+        P::choice("fragments", {"refuse", "largest"},
+                  "An agglomerate in several pieces: refuse it, or take the largest piece alone")
+            .by_default("refuse"),
         P::real("largest_gap", "", "A listed contact whose surfaces are farther apart is refused, in a")
             .above(0)
             .by_default(0.2)}},
@@ -140,6 +143,7 @@ BreakerScene breaker_scene(const Scene& scene) {
   if (s.keep_contacts && s.radius)
     throw scene.error("particle.contacts", "particle.radius (" + scene.where("particle.radius") +
                                                ") scales the agglomerate, which no contact survives");
+  s.only_largest = scene.choice("particle.fragments") == "largest";
   s.largest_gap = scene.real("particle.largest_gap");
   s.model.material.youngs_modulus = scene.real("material.youngs_modulus");
   s.model.material.poisson_ratio = scene.real("material.poisson_ratio");

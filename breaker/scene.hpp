@@ -13,7 +13,7 @@ const ParameterTable& breaker_parameters();
 
 struct BreakerScene {
   std::optional<double> radius;  // m
-  bool keep_contacts = false;
+  bool keep_contacts = false, only_largest = false;
   double largest_gap = 0.2;  // of listed contacts, in a
   BreakupModel model;
   std::string flow;  // as the agglomerate file calls it

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "common/agglomerate/fragments.hpp"
 #include "common/agglomerate/morphology.hpp"
 #include "common/contact/bond_laws.hpp"
 #include "common/io/errors.hpp"
@@ -32,11 +33,43 @@ void refuse_open_contacts(const Agglomerate& g, const std::string& name, double 
   }
 }
 
+// One piece, or only the largest.
+void require_one_piece(Agglomerate& g, const std::string& name, bool only_largest) {
+  const auto label = fragments(g.particles.size(), g.state.contacts);
+  const auto sizes = fragment_sizes(label);
+  if (sizes.size() < 2) return;
+  if (!only_largest)
+    throw InputError(
+        fmt::format("{} is in {} pieces, the largest of {} particles: there is nothing that holds them "
+                    "together. particle.fragments = \"largest\" takes that one alone",
+                    name, sizes.size(), sizes.front()));
+  Agglomerate kept;
+  std::vector<std::int32_t> number(label.size(), -1);
+  for (std::size_t p = 0; p < label.size(); ++p) {
+    if (label[p] != 0) continue;
+    number[p] = static_cast<std::int32_t>(kept.particles.size());
+    kept.particles.radius.push_back(g.particles.radius[p]);
+    kept.particles.mass.push_back(g.particles.mass[p]);
+    if (!g.particles.id.empty()) kept.particles.id.push_back(g.particles.id[p]);
+    if (!g.particles.species.empty()) kept.particles.species.push_back(g.particles.species[p]);
+    kept.state.position.push_back(g.state.position[p]);
+    if (!g.state.orientation.empty()) kept.state.orientation.push_back(g.state.orientation[p]);
+  }
+  for (Contact c : g.state.contacts) {
+    if (number[c.i] < 0) continue;
+    c.i = number[c.i];
+    c.j = number[c.j];
+    kept.state.contacts.push_back(c);
+  }
+  g = std::move(kept);
+}
+
 }  // namespace
 
 Start make_start(Agglomerate agglomerate, const std::string& name, const BreakerScene& scene) {
   Start start;
   start.agglomerate = std::move(agglomerate);
+  require_one_piece(start.agglomerate, name, scene.only_largest);
   Frame& frame = start.agglomerate.state;
   const Particles& particles = start.agglomerate.particles;
   if (particles.size() == 0) throw InputError(name + ": there are no particles");
@@ -54,6 +87,7 @@ Start make_start(Agglomerate agglomerate, const std::string& name, const Breaker
     start.closed = true;
     start.lost = closed.lost.size();
     start.unlisted = closed.unlisted.size();
+    if (start.lost > 0) require_one_piece(start.agglomerate, name + ", closed,", scene.only_largest);
   }
   frame.step = 0;
   frame.time = 0;

@@ -15,8 +15,8 @@ struct Start {
   double rms_use = 0, max_use = 0;            // the same over the pull-off force of each pair
 };
 
-// Throws InputError, naming the pair, where a listed contact is open by more than scene.largest_gap radii, and
-// std::runtime_error if closing does not converge.
+// Throws InputError where a listed contact is open by more than scene.largest_gap radii, naming the pair, and where the
+// agglomerate is in several pieces unless the scene takes the largest; std::runtime_error if closing does not converge.
 Start make_start(Agglomerate agglomerate, const std::string& name, const BreakerScene& scene);
 
 }  // namespace crumble

@@ -72,15 +72,15 @@ void BondIncrement::add_gradient(Vector6& g_i, Vector6& g_j) const {
   g_j.tail<3>() += c_j_ * moment + turn / scale_j_;
 }
 
-void BondIncrement::stiffness(Matrix6& K_ii, Matrix6& K_ij, Matrix6& K_jj) const {
+void BondIncrement::stiffness(Matrix6& K_ii, Matrix6& K_ij, Matrix6& K_jj, Curvature curvature) const {
   const Vector3& n0 = bond_.normal;
   const auto [N, k_n] = law_.normal(gap_);
   const Matrix3 D_s = spring_matrix(sliding_, n0, law_.k_s, sliding_limit_);
   const Matrix3 D_r = spring_matrix(rolling_, n0, law_.k_r, law_.M_r_crit);
   const bool twisted = law_.k_t * std::abs(twisting_) > law_.M_t_crit;
+  const double across = curvature == Curvature::full ? N : std::max(N, 0.0);
   Matrix3 K = D_s;
-  if (!lost())
-    K += k_n * n_ * n_.transpose() + std::max(N, 0.0) / distance_ * (Matrix3::Identity() - n_ * n_.transpose());
+  if (!lost()) K += k_n * n_ * n_.transpose() + across / distance_ * (Matrix3::Identity() - n_ * n_.transpose());
   const Matrix3 C = cross_matrix(n0), DC = D_s * C, CDC = C.transpose() * DC;
   const Matrix3 bend = D_r + (twisted ? 0 : law_.k_t) * n0 * n0.transpose();
   K_ii << K, -c_i_ * DC, (-c_i_ * DC).transpose(), c_i_ * c_i_ * CDC + bend / (scale_i_ * scale_i_);

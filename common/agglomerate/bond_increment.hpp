@@ -8,6 +8,10 @@ namespace crumble {
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
+// Compression across the normal softens a bond: the second derivatives with that part or, positive semi-definite,
+// without.
+enum class Curvature { full, convex };
+
 // Increments of one sphere: (dx, scale * dtheta), m. With rotations stored as lengths all stiffnesses are N/m.
 struct BondEnds {
   double radius_i, radius_j;  // m
@@ -28,10 +32,9 @@ class BondIncrement {
   // minimum together with a dissipation is the implicit step with return mapping (Simo & Hughes 1998).
   double energy() const;
 
-  // Adds the gradient of the energy, N; K: second derivatives without the negative part (compression across the
-  // normal), so that they are positive semi-definite, N/m.
+  // Adds the gradient of the energy, N; K: second derivatives, N/m.
   void add_gradient(Vector6& g_i, Vector6& g_j) const;
-  void stiffness(Matrix6& K_ii, Matrix6& K_ij, Matrix6& K_jj) const;
+  void stiffness(Matrix6& K_ii, Matrix6& K_ij, Matrix6& K_jj, Curvature curvature = Curvature::convex) const;
 
  private:
   const BondLaw& law_;

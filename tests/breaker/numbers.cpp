@@ -59,7 +59,7 @@ void expect_agreement(const std::vector<Vector3>& centres, Rung rung, double rat
       if (std::min(one.gap[k][b], two.gap[k][b]) <= h_po)
         worst = std::max(worst, std::abs(one.gap[k][b] - two.gap[k][b]));
   EXPECT_NEAR(one.critical / two.critical, 1, 5e-3);
-  EXPECT_NEAR(estimate / one.critical, 1, 2e-3);  // the default tolerance, ten times wider
+  EXPECT_NEAR(estimate / one.critical, 1, 5e-3);  // the default tolerance, ten times wider
   EXPECT_LT(worst, 1e-2 * h_po);
   std::printf("breaks at %.2f Pa, explicit %.2f Pa; worst gap differs by %.2g h_po; %lld steps for %lld\n",
               one.critical, two.critical, worst / h_po, static_cast<long long>(one.steps),

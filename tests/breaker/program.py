@@ -1,0 +1,228 @@
+"""The program as users meet it: breaker and agglomerate on small agglomerates, hard cases included.
+
+    program.py BREAKER AGGLOMERATE SCENE.toml
+"""
+import json
+import math
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+import h5py
+import numpy
+
+BREAKER, AGGLOMERATE, SCENE = (str(pathlib.Path(p).resolve()) for p in sys.argv[1:4])
+DOUBLET = [[0, 0, 0], [200, 0, 0]]
+
+
+def helix(count):
+    """A coiled chain: it turns into the flow, straightens and breaks."""
+    turn = [[250 * math.cos(0.75 * k), 60 * k, 250 * math.sin(0.75 * k)] for k in range(count)]
+    centres = [numpy.array(turn[0])]
+    for k in range(1, count):
+        step = numpy.array(turn[k]) - numpy.array(turn[k - 1])
+        centres.append(centres[-1] + 200 * step / numpy.linalg.norm(step))
+    return centres
+
+
+def contents(path):
+    """All arrays of a file by path, without the provenance (time of creation, command)."""
+    found = {}
+    with h5py.File(path) as file:
+        file.visititems(lambda name, item: found.update({name: item[()]}) if isinstance(item, h5py.Dataset) else None)
+    return found
+
+
+class Program(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="breaker-"))
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def run_it(self, *arguments):
+        return subprocess.run([BREAKER, *map(str, arguments)], capture_output=True, text=True, timeout=120)
+
+    def agglomerate(self, centres, radius=100, tolerance=0.02):
+        """Centres in nm -> closed agglomerate file."""
+        table = self.folder / "centres.csv"
+        table.write_text("\n".join(["x,y,z"] + [",".join(f"{v:.12g}" for v in x) for x in centres]) + "\n")
+        out = self.folder / "agglomerate.h5"
+        subprocess.run([AGGLOMERATE, "import", str(table), "-o", str(out), "--radius", str(radius),
+                        "--contact-tolerance", str(tolerance)], check=True, capture_output=True)
+        return out
+
+    def command(self, agglomerate, *settings, output="breakup.h5"):
+        return [SCENE, agglomerate, "-o", self.folder / output, *[a for s in settings for a in ("--set", s)]]
+
+    def breakup(self, agglomerate, *settings, output="breakup.h5"):
+        report = self.folder / "breakup.json"
+        run = self.run_it(*self.command(agglomerate, *settings, output=output), "--report", report)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        out = self.folder / output
+        check = subprocess.run([AGGLOMERATE, "check", str(out)], capture_output=True, text=True)
+        self.assertEqual(check.returncode, 0, check.stdout)
+        return json.loads(report.read_text()), run, out
+
+    def refused(self, agglomerate, *settings):
+        run = self.run_it(*self.command(agglomerate, *settings, output="refused.h5"))
+        self.assertEqual(run.returncode, 2, run.stderr)
+        self.assertFalse((self.folder / "refused.h5").exists())
+        return run.stderr
+
+    def test_doublet(self):
+        report, run, out = self.breakup(self.agglomerate(DOUBLET))
+        found = report["results"]
+        self.assertAlmostEqual(found["critical_stress_pa"], 11770, delta=30)
+        self.assertEqual(found["breakage"], "brittle")
+        self.assertEqual(found["fragments"], [1, 1])
+        self.assertEqual((found["contacts_initial"], found["contacts_at_breakup"]), (1, 1))
+        self.assertLess(report["errors"]["critical_stress_relative"]["value"], 3e-3)
+        self.assertIn("needed to turn into the flow", run.stderr)
+        with h5py.File(out) as file:
+            # The equilibrium gap of JKR at 100 nm.
+            self.assertAlmostEqual(file["contacts/gap"][0], -0.18795, delta=1e-5)
+            self.assertEqual(file["h5md/modules/agglomerate"].attrs["state"], "broken")
+            self.assertEqual(list(file["events/kind"]), [3, 5])
+            self.assertEqual(list(file["events/fragment_sizes"]), [1, 1])
+            stress = file["series/flow_stress/value"][:]
+            self.assertTrue((numpy.diff(stress) > 0).all())
+            self.assertTrue((numpy.diff(file["observables/flow_stress/value"][:]) >= 0).all())
+
+    def test_scaled_from_10_nm_breaks_as_at_100_nm(self):
+        report, _, _ = self.breakup(self.agglomerate([[0, 0, 0], [20, 0, 0]], radius=10),
+                                    "hydrodynamics.method=fts", "error.estimate=false")
+        self.assertAlmostEqual(report["results"]["scaled_by"], 10)
+        self.assertAlmostEqual(report["results"]["critical_stress_pa"], 12597, delta=15)
+        self.assertIsNone(report["errors"]["critical_stress_relative"]["value"])
+
+    def test_viscosity_changes_nothing_when_the_protocol_goes_with_it(self):
+        start = self.agglomerate(helix(5))
+        first, _, _ = self.breakup(start, "error.estimate=false")
+        second, _, _ = self.breakup(start, "error.estimate=false", "fluid.viscosity=1e-3", output="thin.h5")
+        ratio = second["results"]["critical_stress_pa"] / first["results"]["critical_stress_pa"]
+        self.assertAlmostEqual(ratio, 1, delta=1e-5)
+
+    def test_interrupted_run_goes_on_to_the_same_bits(self):
+        start = self.agglomerate(helix(16))
+        settings = ("error.estimate=false", "integrator.tolerance=0.002", "protocol.stages=rest 0.1; ramp 5000",
+                    "breakup.until_stable=true", "breakup.stable_strain=5")
+        _, _, whole = self.breakup(start, *settings, output="whole.h5")
+        cut = self.folder / "cut.h5"
+        interrupted = 0
+        for number in (signal.SIGINT, signal.SIGTERM):
+            process = subprocess.Popen([BREAKER, *map(str, self.command(start, *settings, output="cut.h5"))],
+                                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            time.sleep(0.4)
+            process.send_signal(number)
+            code = process.wait(timeout=60)
+            self.assertIn(code, (0, 128 + number))
+            if code:
+                interrupted += 1
+                self.assertTrue(pathlib.Path(f"{cut}.checkpoint").exists() and not cut.exists())
+        self.assertTrue(interrupted, "the run ended before it could be interrupted")
+        other = self.run_it(*self.command(start, *settings[:1], output="cut.h5"))
+        self.assertEqual(other.returncode, 2)
+        self.assertIn("another scene", other.stderr)
+        self.breakup(start, *settings, output="cut.h5")
+        self.assertFalse(pathlib.Path(f"{cut}.checkpoint").exists())
+        a, b = contents(whole), contents(cut)
+        self.assertEqual(a.keys(), b.keys())
+        for name in a:
+            self.assertTrue(numpy.array_equal(a[name], b[name]), name)
+
+    def test_fragments_break_until_they_are_stable(self):
+        report, _, out = self.breakup(self.agglomerate(helix(12)), "breakup.until_stable=true", "error.estimate=false")
+        found = report["results"]
+        self.assertEqual(sum(found["fragments"]), 12)
+        self.assertGreaterEqual(len(found["fragments"]), 2)
+        with h5py.File(out) as file:
+            labels = file["particles/all/fragment/value"][-1]
+            sizes = sorted(numpy.bincount(labels).tolist(), reverse=True)
+            self.assertEqual(sizes, found["fragments"])
+
+    def test_largest_fragment_goes_on(self):
+        _, _, out = self.breakup(self.agglomerate(helix(8)), "error.estimate=false")
+        text = pathlib.Path(SCENE).read_text().replace("radius = 100e-9", "")
+        scene = self.folder / "more.toml"
+        scene.write_text(text)
+        more = self.run_it(scene, out, "-o", self.folder / "more.h5", "--set", "particle.contacts=keep",
+                           "--set", "particle.fragments=largest", "--set", "error.estimate=false")
+        self.assertEqual(more.returncode, 0, more.stderr)
+        self.assertIn("critical stress", more.stdout)
+
+    def test_pieces_are_refused(self):
+        pieces = self.agglomerate(DOUBLET + [[0, 900, 0], [200, 900, 0], [400, 900, 0]])
+        self.assertIn("2 pieces", self.refused(pieces))
+        report, _, _ = self.breakup(pieces, "particle.fragments=largest", "error.estimate=false")
+        self.assertEqual(report["results"]["contacts_initial"], 2)
+
+    def test_loose_particle_in_a_shell_is_refused(self):
+        g = (1 + 5**0.5) / 2
+        corners = [[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
+        for p in (-1 / g, 1 / g):
+            for q in (-g, g):
+                corners += [[0, p, q], [p, q, 0], [q, 0, p]]
+        shell = self.agglomerate((numpy.array(corners) * 100 * g).tolist() + [[0, 0, 0]])
+        self.assertIn("2 pieces", self.refused(shell))
+
+    def test_one_particle_never_breaks(self):
+        report, run, _ = self.breakup(self.agglomerate([[0, 0, 0]]))
+        self.assertIsNone(report["results"]["critical_stress_pa"])
+        self.assertIn("nothing broke", run.stdout)
+
+    def test_rest_leaves_a_closed_agglomerate_as_it_is(self):
+        report, run, out = self.breakup(self.agglomerate(helix(6)), "flow.kind=quiescent", "protocol.stages=rest 1")
+        self.assertIn("until the end of the protocol", run.stdout)
+        with h5py.File(out) as file:
+            x = file["particles/all/position/value"][:]
+            # 1e-6 nm: round-off of coordinates of 1000 nm in forces of stiff contacts.
+            self.assertLess(abs(x[-1] - x[0]).max(), 1e-6)
+
+    def test_a_ramp_ten_thousand_times_too_fast_still_breaks(self):
+        report, run, _ = self.breakup(self.agglomerate(helix(6)), "protocol.stages=ramp 5e7", "error.estimate=false")
+        self.assertIn("may break before it is aligned", run.stderr)
+        self.assertGreater(report["results"]["critical_stress_pa"], 1000)
+
+    def test_flows(self):
+        start = self.agglomerate(helix(4))
+        report, _, out = self.breakup(start, "flow.kind=uniaxial", "error.estimate=false")
+        self.assertGreater(report["results"]["critical_stress_pa"], 1000)
+        with h5py.File(out) as file:
+            self.assertEqual(file["flow"].attrs["type"], "uniaxial")
+        # In shear it tumbles; a slow ramp would let it tumble a thousand times.
+        _, run, out = self.breakup(start, "flow.kind=shear", "error.estimate=false", "protocol.stages=ramp 5e5 to 3000")
+        self.assertIn("it turns for ever", run.stderr)
+        with h5py.File(out) as file:
+            self.assertEqual(file["flow"].attrs["type"], "shear")
+
+    def test_an_explicit_step_beyond_the_stability_limit_is_refused(self):
+        start = self.agglomerate(DOUBLET)
+        text = self.refused(start, "integrator.method=explicit", "integrator.step=1e-6", "hydrodynamics.method=fts")
+        self.assertIn("beyond the stability limit", text)
+        self.assertIn("1.49e-07", text)  # 2/1.35e7 per second: far field, 1 Pa s
+
+    def test_explicit_program_agrees(self):
+        start = self.agglomerate(DOUBLET)
+        settings = ("protocol.stages=ramp 5e6", "error.estimate=false", "hydrodynamics.method=fts")
+        fast, _, _ = self.breakup(start, *settings)
+        slow, _, _ = self.breakup(start, *settings, "integrator.method=explicit", output="explicit.h5")
+        ratio = fast["results"]["critical_stress_pa"] / slow["results"]["critical_stress_pa"]
+        self.assertAlmostEqual(ratio, 1, delta=2e-3)
+
+    def test_messages_say_what_is_wrong(self):
+        start = self.agglomerate(DOUBLET)
+        for setting, message in (("protocol.stages=wait 3", "starts with none of rest, hold, ramp"),
+                                 ("protocol.stages=hold 2", "needs 'for' and a time"),
+                                 ("protocol.stages=ramp 5000; rest 1", "nothing can follow"),
+                                 ("integrator.step=1e-9", "has no meaning to the implicit integrator"),
+                                 ("particle.contacts=keep", "scales the agglomerate"),
+                                 ("breakup.reech=1", "did you mean 'breakup.reach'")):
+            self.assertIn(message, self.refused(start, setting))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0]])
