@@ -7,9 +7,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/agglomerate/agglomerate.hpp"
+
 namespace crumble {
 
-using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 struct BlockPair {

@@ -11,8 +11,8 @@
 
 namespace crumble {
 
-Inertial::Inertial(const DryingModel& model, Agglomerate& state, double step)
-    : Integrator(model, state, 0.1), step_(step) {
+Inertial::Inertial(const DryingModel& model, Agglomerate& state, double step, std::uint64_t seed)
+    : Integrator(model, state, 0.1), step_(step), seed_(seed) {
   Frame& f = state.state;
   for (auto* field : {&f.velocity, &f.angular_velocity, &f.force, &f.torque})
     if (field->size() != state.particles.size()) field->assign(state.particles.size(), Vector3::Zero());
@@ -70,6 +70,13 @@ void Inertial::drift() {
   advance_bonds([&](std::int32_t p) { return Motion{step_ * f.velocity[p], step_ * f.angular_velocity[p]}; });
 }
 
+// Three numbers, uniform in (-1/2, 1/2), that stand until the next step.
+Vector3 Inertial::random_vector(Purpose purpose, std::int32_t particle) const {
+  const auto words = random_words(seed_, purpose, static_cast<std::uint32_t>(particle),
+                                  static_cast<std::uint64_t>(state_.state.step));
+  return {uniform(words[0]) - 0.5, uniform(words[1]) - 0.5, uniform(words[2]) - 0.5};
+}
+
 void Inertial::evaluate_forces() {
   Frame& f = state_.state;
   const auto& radius = state_.particles.radius;
@@ -81,6 +88,11 @@ void Inertial::evaluate_forces() {
     if (surface_cuts(radius[p], r, R))
       f.force[p] = -capillary_force(model_.droplet.surface_tension, radius[p], r - R) / r * f.position[p];
     f.torque[p].setZero();
+    if (model_.thermal_energy == 0 || (r > R + radius[p] && !model_.dry.everything_acts)) continue;
+    const double zeta = drag_coefficient(model_.viscosity, radius[p]);
+    const double zeta_r = rotational_drag_coefficient(model_.viscosity, radius[p]);
+    f.force[p] += random_load(model_.thermal_energy, zeta, step_) * random_vector(Purpose::brownian_force, p);
+    f.torque[p] += random_load(model_.thermal_energy, zeta_r, step_) * random_vector(Purpose::brownian_torque, p);
   }
   for (const Contact& bond : f.contacts) {
     const Vector3 force = force_on_j(bond);

@@ -2,6 +2,7 @@
 // else.
 #pragma once
 
+#include "common/numerics/noise.hpp"
 #include "dryer/integrator.hpp"
 
 namespace crumble {
@@ -12,7 +13,8 @@ namespace crumble {
 // 2/omega_max.
 class Inertial : public Integrator {
  public:
-  Inertial(const DryingModel& model, Agglomerate& state, double step);
+  // seed: of the Brownian forces; of no matter while model.thermal_energy is 0.
+  Inertial(const DryingModel& model, Agglomerate& state, double step, std::uint64_t seed = 0);
 
   // Throws std::domain_error naming the particle if a velocity is no longer finite (step too large).
   void step(double latest_time) override;
@@ -26,7 +28,10 @@ class Inertial : public Integrator {
   void evaluate_forces();
   void check_finite() const;
 
+  Vector3 random_vector(Purpose purpose, std::int32_t particle) const;
+
   double step_;
+  std::uint64_t seed_;
   struct HalfKick {
     double kept, gained, kept_rotation, gained_rotation;
   };

@@ -20,6 +20,8 @@ Integrator::Integrator(const DryingModel& model, Agglomerate& state, double skin
   const Frame& f = state.state;
   open_.update(f.position, state.particles.radius, f.contacts);
   activity_.front_at(model.droplet.radius(f.time));
+  if (model.thermal_energy > 0)
+    for (std::size_t p = 0; p < state.particles.size(); ++p) activity_.wake(static_cast<std::int32_t>(p));
 }
 
 void Integrator::advance_bond(Contact& bond, const Motion& i, const Motion& j, bool& lost) {

@@ -6,12 +6,19 @@
 
 namespace crumble {
 
+// What holds for a particle that the liquid has left behind (r > R + a).
+struct DryParticles {
+  bool everything_acts = false;  // thermal noise goes on as if the liquid were there
+  double drag_factor = 1;        // of Stokes drag, which stays as a relaxation
+};
+
 struct DryingModel {
   Droplet droplet;
   double viscosity = 1e-3;    // mu, Pa s
   double thermal_energy = 0;  // kT, J; 0: no Brownian motion, D = 0
   Material material;
   ContactChoice contact;
+  DryParticles dry;
 };
 
 }  // namespace crumble

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "dryer/brownian.hpp"
 #include "dryer/inertial.hpp"
 #include "dryer/start.hpp"
 
@@ -10,7 +11,12 @@ namespace crumble {
 namespace {
 
 std::unique_ptr<Integrator> make_integrator(const DryingScene& scene, double coarsening, Agglomerate& state) {
-  if (scene.inertial) return std::make_unique<Inertial>(scene.model, state, coarsening * scene.step);
+  if (scene.inertial) return std::make_unique<Inertial>(scene.model, state, coarsening * scene.step, scene.seed);
+  if (scene.model.thermal_energy > 0) {
+    BrownianControl control = scene.brownian;
+    control.contact_step *= coarsening;
+    return std::make_unique<Brownian>(scene.model, state, scene.seed, control);
+  }
   OverdampedControl control = scene.control;
   control.largest_displacement *= coarsening;
   control.contact_precision *= coarsening;

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "common/io/parameters.hpp"
+#include "dryer/brownian.hpp"
 #include "dryer/model.hpp"
 #include "dryer/overdamped.hpp"
 
@@ -18,6 +19,7 @@ struct DryingScene {
   bool inertial = false;
   double step = 0;  // inertial only, s
   OverdampedControl control;
+  BrownianControl brownian;
   int frames = 0;
   bool estimate_error = true;
 };

@@ -1,0 +1,78 @@
+// The integrator for particles that diffuse: no inertia, thermal noise, contacts at their full stiffness.
+#pragma once
+
+#include "dryer/bond_block.hpp"
+#include "dryer/brownian_path.hpp"
+#include "dryer/integrator.hpp"
+
+namespace crumble {
+
+struct BrownianControl {
+  double contact_step = 0.15;  // the short step, in the time a = zeta/k_n in which a contact relaxes
+  int depth = 6;               // 2^depth short steps make one long step
+};
+
+// dx = F/zeta dt + sqrt(2 D) dW and the same for rotations, D = kT/zeta (paper, Eqs. 1, 4, 5 without inertia).
+//
+// Two rates. Particles that are bonded, or so near another that they may touch within the long step, take short steps
+// that resolve the contact; all others take one long step. Both follow the particle's one Brownian path. The scheme is
+// that of Leimkuhler & Matthews 2013, loads evaluated half of the noise ahead,
+//
+//   y' = y + dt F(y + dW/2)/zeta + dW,   contacts live at x = y + dW/2,
+//
+// whose x have the exact Boltzmann distribution in a harmonic well, for any stable step.
+// A particle left dry has no noise (model.dry).
+class Brownian : public Integrator {
+ public:
+  Brownian(const DryingModel& model, Agglomerate& state, std::uint64_t seed, const BrownianControl& control);
+
+  // One long step. Throws std::domain_error naming the particle if the state is not finite.
+  void step(double latest_time) override;
+
+  Memory memory() const override;
+  void recall(const Memory& memory) override;
+
+  double short_step() const { return dt_; }
+  double long_step() const { return dt_ * static_cast<double>(substeps_); }
+
+ private:
+  // Particles that take short steps, one array a quantity; index: place in the block.
+  struct Fast {
+    std::vector<double> drag[2];   // dt/zeta, dt/zeta_r
+    std::vector<double> noise[2];  // half of the noise of a short step: m, rad per unit normal number
+    std::vector<double> ahead[6];  // half of the noise and dt F/zeta, m and rad
+    std::vector<double> radius;
+  };
+  void classify();
+  void gather();
+  void advance_fast();
+  void fast_step(int step);
+  double early(std::int32_t i, std::int32_t j) const;
+  void add_bond(const Contact& bond, std::int32_t i, std::int32_t j);
+  void predict(int step);
+  void touch();
+  void surface();
+  void look_ahead();
+  void advance_slow();
+  void put_back();
+  bool is_dry(std::int32_t particle) const;
+  void check_finite() const;
+
+  std::uint64_t seed_;
+  BrownianControl control_;
+  BrownianPath path_;
+  double dt_, margin_;
+  int substeps_;
+  double R_ = 0;
+  std::vector<double> drag_, turning_drag_;
+  std::vector<Vector6> ahead_;  // per particle: from the contacts' position x to the next y
+  std::vector<std::int32_t> place_;
+  std::vector<std::uint32_t> fast_, slow_;
+  Fast block_;
+  std::vector<Pair> open_places_;
+  MotionBlock motion_;
+  BondBlock bonds_;
+  std::vector<double> noise_;
+};
+
+}  // namespace crumble
