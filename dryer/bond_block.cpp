@@ -29,7 +29,7 @@ void BondBlock::clear() {
 }
 
 void BondBlock::add(const Contact& bond, std::int32_t i, std::int32_t j, const BondLaw& law, double a_i, double a_j,
-                    double shift) {
+                    double lost_gap) {
   // The lanes beyond the last bond repeat one, so that they compute nothing harmful.
   const auto put = [&](auto& array, auto value) {
     if (array.size() == count_) array.resize(count_ + lanes, value);
@@ -51,7 +51,7 @@ void BondBlock::add(const Contact& bond, std::int32_t i, std::int32_t j, const B
   put(a_j_, a_j);
   put(length_, law.jkr.length);
   put(pull_off_, law.jkr.pull_off_force);
-  put(lost_gap_, law.lost_gap() - shift);
+  put(lost_gap_, lost_gap);
   put(k_s_, law.k_s);
   put(k_t_, law.k_t);
   put(k_r_, law.k_r);

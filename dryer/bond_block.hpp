@@ -37,7 +37,7 @@ class BondBlock {
   void clear();
   // i, j: places of the two spheres in the motion block; lost_gap: beyond it the bond is lost, m.
   void add(const Contact& bond, std::int32_t i, std::int32_t j, const BondLaw& law, double a_i, double a_j,
-           double shift);
+           double lost_gap);
   void remove(std::size_t bond);  // the last one takes its place
   // Gap, normal, histories and loads back into a bond; tag is its name from add().
   void store(std::size_t bond, Contact& contact) const;
