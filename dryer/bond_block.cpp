@@ -141,7 +141,7 @@ void BondBlock::move(const MotionBlock& motion, std::size_t b) {
   const V axis = cross(n0, n);
   const Lane k = (1 + dot(n0, n)).inverse(), spin = 0.5 * dot(mid, Wi + Wj);
   const Lane s = spin * (1 - spin * spin / 6), c = 1 - 0.5 * spin * spin;
-  const auto carry = [&](const V& history) {
+  const auto carry = [&](const V& history) __attribute__((always_inline)) {
     V v = history + cross(axis, history) + k * cross(axis, cross(axis, history));
     v = v - dot(n, v) * n;
     return c * v + s * cross(n, v);

@@ -81,14 +81,20 @@ void Brownian::classify() {
     const double reach = radius[pair.i] + radius[pair.j] + margin_;
     if ((f.position[pair.j] - f.position[pair.i]).squaredNorm() < reach * reach) near.push_back(pair);
   }
-  for (const Pair& pair : near) place_[pair.i] = place_[pair.j] = 0;
-  for (const Contact& bond : f.contacts) place_[bond.i] = place_[bond.j] = 0;
+  near_.assign(place_.size(), 0);
+  for (const Pair& pair : near) near_[pair.i] = near_[pair.j] = 1;
+  for (const Contact& bond : f.contacts) near_[bond.i] = near_[bond.j] = 1;
+  // Those in the liquid come first: only they need noise.
   fast_.clear();
-  for (std::size_t p = 0; p < place_.size(); ++p)
-    if (place_[p] == 0) {
-      place_[p] = static_cast<std::int32_t>(fast_.size());
-      fast_.push_back(static_cast<std::uint32_t>(p));
-    }
+  const bool noisy_when_dry = model_.dry.everything_acts;
+  for (const bool wet : {true, false}) {
+    for (std::size_t p = 0; p < place_.size(); ++p)
+      if (near_[p] && (noisy_when_dry || !is_dry(static_cast<std::int32_t>(p))) == wet) {
+        place_[p] = static_cast<std::int32_t>(fast_.size());
+        fast_.push_back(static_cast<std::uint32_t>(p));
+      }
+    if (wet) noisy_ = fast_.size();
+  }
   open_places_.clear();
   for (const Pair& pair : near) open_places_.push_back({place_[pair.i], place_[pair.j]});
 }
@@ -115,7 +121,7 @@ void Brownian::gather() {
   }
   bonds_.clear();
   for (const Contact& bond : f.contacts) add_bond(bond, place_[bond.i], place_[bond.j]);
-  path_.fill(fast_, static_cast<std::uint64_t>(statistics_.steps), control_.depth, size, noise_);
+  path_.fill({fast_.data(), noisy_}, static_cast<std::uint64_t>(statistics_.steps), control_.depth, size, noise_);
 }
 
 // How far a bond is made before the surfaces touch and lost before its law lets go, m. Events of a diffusion that is

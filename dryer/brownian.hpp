@@ -65,9 +65,11 @@ class Brownian : public Integrator {
   int substeps_;
   double R_ = 0;
   std::vector<double> drag_, turning_drag_;
-  std::vector<Vector6> ahead_;  // per particle: from the contacts' position x to the next y
-  std::vector<std::int32_t> place_;
+  std::vector<Vector6> ahead_;       // per particle: from the contacts' position x to the next y
+  std::vector<std::int32_t> place_;  // of a particle in the block, or -1
+  std::vector<char> near_;
   std::vector<std::uint32_t> fast_, slow_;
+  std::size_t noisy_ = 0;  // as many of fast_ feel noise: the first
   Fast block_;
   std::vector<Pair> open_places_;
   MotionBlock motion_;

@@ -1,6 +1,7 @@
 #include "dryer/brownian_path.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -25,6 +26,22 @@ void normals(const std::uint32_t* u, const std::uint32_t* v, std::size_t count, 
 // Index of a node: its level counted from the coarsest, and its interval at that level.
 std::uint64_t node(int level, std::uint64_t interval) { return static_cast<std::uint64_t>(level) << 58 | interval; }
 
+// random_words of many particles, one row a word.
+void random_rows(std::uint64_t seed, Purpose purpose, std::span<const std::uint32_t> particle, std::uint64_t index,
+                 const std::array<std::uint32_t*, 4>& out) {
+  std::uint32_t *a = out[0], *b = out[1], *c = out[2], *d = out[3];
+  const std::uint32_t* id = particle.data();
+  const std::size_t count = particle.size();
+#pragma omp simd
+  for (std::size_t p = 0; p < count; ++p) {
+    const auto words = random_words(seed, purpose, id[p], index);
+    a[p] = words[0];
+    b[p] = words[1];
+    c[p] = words[2];
+    d[p] = words[3];
+  }
+}
+
 // Words and normal numbers of many nodes, one row a component: six rows for the even node of a pair, six for the odd.
 struct Draws {
   std::vector<std::uint32_t> words;
@@ -36,14 +53,16 @@ struct Draws {
     words.resize(12 * n);
     xi.resize(12 * n);
   }
-  // Three draws of four numbers serve two neighbouring nodes of six components.
-  void draw(std::size_t at, std::uint64_t seed, std::uint32_t particle, int level, std::uint64_t even) {
-    const auto a = random_words(seed, Purpose::brownian_path, particle, node(level, even));
-    const auto b = random_words(seed, Purpose::brownian_path, particle, node(level, even + 1));
-    const auto c = random_words(seed, Purpose::brownian_torque, particle, node(level, even));
-    // Rows 2k and 2k + 1 make two normal numbers.
-    const std::uint32_t mixed[12] = {a[0], a[1], a[2], a[3], c[0], c[1], b[0], b[1], b[2], b[3], c[2], c[3]};
-    for (std::size_t k = 0; k < 12; ++k) words[k * count + at] = mixed[k];
+  // Three draws of four numbers serve two neighbouring nodes of six components. Rows 2k and 2k + 1 make two normal
+  // numbers.
+  void draw(std::size_t at, std::uint64_t seed, std::span<const std::uint32_t> particle, int level,
+            std::uint64_t even) {
+    constexpr std::size_t row_of[3][4] = {{0, 1, 2, 3}, {6, 7, 8, 9}, {4, 5, 10, 11}};
+    const Purpose purpose[3] = {Purpose::brownian_path, Purpose::brownian_path, Purpose::brownian_torque};
+    for (std::size_t d = 0; d < 3; ++d)
+      random_rows(seed, purpose[d], particle, node(level, even + (d == 1)),
+                  {&words[row_of[d][0] * count + at], &words[row_of[d][1] * count + at],
+                   &words[row_of[d][2] * count + at], &words[row_of[d][3] * count + at]});
   }
   void transform() {
     for (std::size_t k = 0; k < 12; k += 2)
@@ -62,10 +81,8 @@ void BrownianPath::whole(std::span<const std::uint32_t> particle, std::uint64_t 
   thread_local std::vector<std::uint32_t> words;
   words.resize(4 * count);
   out.resize(4 * count);
-  for (std::size_t p = 0; p < count; ++p) {
-    const auto a = random_words(seed_, Purpose::brownian_path, particle[p], node(0, interval));
-    for (std::size_t k = 0; k < 4; ++k) words[k * count + p] = a[k];
-  }
+  random_rows(seed_, Purpose::brownian_path, particle, node(0, interval),
+              {&words[0], &words[count], &words[2 * count], &words[3 * count]});
   for (std::size_t k = 0; k < 4; k += 2)
     normals(&words[k * count], &words[(k + 1) * count], count, &out[k * count], &out[(k + 1) * count]);
 }
@@ -77,7 +94,7 @@ void BrownianPath::fill(std::span<const std::uint32_t> particle, std::uint64_t i
   thread_local Draws draws;
 
   draws.resize(count);
-  for (std::size_t p = 0; p < count; ++p) draws.draw(p, seed_, particle[p], 0, interval & ~std::uint64_t{1});
+  draws.draw(0, seed_, particle, 0, interval & ~std::uint64_t{1});
   draws.transform();
   for (int k = 0; k < 6; ++k)
     std::copy_n(draws.row(k, interval & 1), count, &out[static_cast<std::size_t>(k) * stride]);
@@ -101,8 +118,7 @@ void BrownianPath::fill(std::span<const std::uint32_t> particle, std::uint64_t i
     const std::uint64_t first = (interval << (level - 1)) & ~std::uint64_t{1};
     const std::size_t parents = std::size_t{1} << (level - 1), pairs = std::max<std::size_t>(parents / 2, 1);
     draws.resize(pairs * count);
-    for (std::size_t pair = 0; pair < pairs; ++pair)
-      for (std::size_t p = 0; p < count; ++p) draws.draw(pair * count + p, seed_, particle[p], level, first + 2 * pair);
+    for (std::size_t pair = 0; pair < pairs; ++pair) draws.draw(pair * count, seed_, particle, level, first + 2 * pair);
     draws.transform();
     // From the last to the first: in place.
     for (std::size_t m = parents; m-- > 0;) split(m, m / 2, level == 1 ? interval & 1 : m & 1);
