@@ -2,8 +2,8 @@
 #pragma once
 
 #include "common/agglomerate/agglomerate.hpp"
-#include "dryer/block_cholesky.hpp"
 #include "common/contact/bond_laws.hpp"
+#include "dryer/block_cholesky.hpp"
 #include "dryer/model.hpp"
 
 namespace crumble {

@@ -72,8 +72,8 @@ void Inertial::drift() {
 
 // Three numbers, uniform in (-1/2, 1/2), that stand until the next step.
 Vector3 Inertial::random_vector(Purpose purpose, std::int32_t particle) const {
-  const auto words = random_words(seed_, purpose, static_cast<std::uint32_t>(particle),
-                                  static_cast<std::uint64_t>(state_.state.step));
+  const auto words =
+      random_words(seed_, purpose, static_cast<std::uint32_t>(particle), static_cast<std::uint64_t>(state_.state.step));
   return {uniform(words[0]) - 0.5, uniform(words[1]) - 0.5, uniform(words[2]) - 0.5};
 }
 

@@ -14,7 +14,8 @@ namespace crumble {
 
 struct IntegratorStatistics {
   std::int64_t steps = 0, rejected = 0, newton_iterations = 0;
-  std::int64_t particle_steps = 0;  // sum of the active particles over the steps
+  std::int64_t particle_steps =
+      0;  // sum over the steps of the active particles; with Brownian motion, of those in short steps
   std::int64_t contacts_made = 0, contacts_lost = 0;
   double largest_overlap = 0;  // deepest overlap of any bond at the end of a step, in the pair's radius
 };

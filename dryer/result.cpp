@@ -29,13 +29,19 @@ double relative(double value, double reference) { return std::abs(value - refere
 
 void fill_left_out(Report& report, const DryingScene& scene, const DryingRun& run) {
   const auto& s = run.integrator().statistics();
-  const double idle = 1 - static_cast<double>(s.particle_steps) /
-                              (static_cast<double>(s.steps) * static_cast<double>(scene.radius.size()));
-  report.left_out.push_back(fmt::format(
-      "idle particles: {:.0f} % of all particle steps were not computed, since without Brownian motion no force "
-      "acts before the front or a bond arrives",
-      100 * idle));
-  report.left_out.push_back("Brownian motion: no diffusion (Pe = infinity), no random number is drawn after the start");
+  const double spared = 100 * (1 - static_cast<double>(s.particle_steps) /
+                                       (static_cast<double>(s.steps) * static_cast<double>(scene.radius.size())));
+  if (scene.model.thermal_energy == 0) {
+    report.left_out.push_back(fmt::format(
+        "idle particles: {:.0f} % of all particle steps were not computed, since without Brownian motion no force "
+        "acts before the front or a bond arrives",
+        spared));
+    report.left_out.push_back(
+        "Brownian motion: no diffusion (Pe = infinity), no random number is drawn after the start");
+  } else if (!scene.inertial) {
+    report.left_out.push_back(
+        fmt::format("short steps: {:.0f} % of the particle time went in long steps, far from any contact", spared));
+  }
   if (!scene.inertial) {
     const double a = scene.radius.front(), mu = scene.model.viscosity;
     const double inertia = 2 * scene.model.material.density * a * a / (9 * mu);
@@ -68,7 +74,10 @@ void fill_report(Report& report, const DryingScene& scene, const DryingRun& run,
   report.error("largest_overlap_over_a", s.largest_overlap,
                "deepest overlap of two bonded particles at the end of any step");
   const std::string how =
-      companion ? "difference to the same run with doubled step control" : "not estimated: error.estimate = false";
+      companion ? "difference to the same run with doubled step control"
+      : scene.model.thermal_energy > 0
+          ? "not estimated: with noise, runs of different steps part; the error of means over seeds is in the manual"
+          : "not estimated: error.estimate = false";
   std::optional<double> d_c, h_c, contacts;
   if (companion) {
     d_c = relative(companion->d_c, m.extent.diameter());

@@ -31,8 +31,15 @@ DryingScene drying_scene(const Scene& scene) {
   s.seed = static_cast<std::uint64_t>(scene.integer("run.seed"));
   s.inertial = scene.choice("integrator.method") == "inertial";
   s.control = {scene.real("integrator.largest_displacement"), scene.real("integrator.contact_precision")};
+  s.brownian.contact_step = scene.real("integrator.contact_step");
+  s.model.dry = {scene.flag("dry.everything_acts"), scene.real("dry.drag_factor")};
   s.frames = static_cast<int>(scene.integer("output.frames"));
-  s.estimate_error = scene.flag("error.estimate");
+  // With noise the paths of two step lengths part; the error is one of means over many seeds.
+  s.estimate_error = scene.flag("error.estimate") && s.model.thermal_energy == 0;
+  if (s.model.thermal_energy > 0 && !s.inertial && s.model.contact.normal != NormalLaw::jkr)
+    throw scene.error("contact.law",
+                      "with particle.brownian_motion the overdamped integrator knows jkr only; set integrator.method = "
+                      "\"inertial\"");
 
   if (s.inertial) {
     const Particles one{{a}, {4.0 / 3.0 * std::numbers::pi * a * a * a * s.model.material.density}, {0}, {0}};

@@ -63,10 +63,18 @@ const ParameterTable& drying_parameters() {
         P::real("rolling_stiffness_factor", "", "Of the rolling stiffness k_r (Eq. 20); the critical torque stays")
             .above(0)
             .by_default(1)}},
+      {"dry",
+       "A particle that the liquid has left behind (r > R + a). No capillary force acts on it; its bonds stay.",
+       {P::flag("everything_acts", "Thermal noise goes on as in the liquid").by_default(false),
+        P::real("drag_factor", "", "Of Stokes drag, which stays as a relaxation; 0.1 to 10 changes nothing (manual)")
+            .above(0)
+            .by_default(1)}},
       {"integrator",
        "How the equations are solved.",
-       {P::choice("method", {"overdamped", "inertial"},
-                  "overdamped: no inertia, implicit contacts, adaptive; inertial: the paper's scheme, fixed step, slow")
+       {P::choice(
+            "method", {"overdamped", "inertial"},
+            "overdamped: no inertia; contacts implicit and steps adaptive at D = 0, two fixed rates with Brownian "
+            "motion; inertial: the paper's scheme, fixed step, slow")
             .by_default("overdamped"),
         P::real("largest_displacement", "", "overdamped: largest motion of a particle in one step, in a")
             .above(0)
@@ -76,12 +84,19 @@ const ParameterTable& drying_parameters() {
             .above(0)
             .at_most(1e-2)
             .by_default(1e-4),
+        P::real("contact_step", "",
+                "overdamped with Brownian motion: the short step of particles in touch, in the relaxation time "
+                "6 pi mu a/k_n of a contact")
+            .above(0)
+            .at_most(0.2)
+            .by_default(0.15),
         P::real("step", "s", "inertial: the fixed step; without it a fifth of the time scale of the stiffest contact")
             .above(0)
             .optional()}},
       {"error",
        "How the run judges itself.",
-       {P::flag("estimate", "Also run with doubled step control (about half as long again) and report the difference")
+       {P::flag("estimate",
+                "D = 0: also run with doubled step control (about half as long again) and report the difference")
             .by_default(true)}},
       {"output",
        "What the file holds.",
