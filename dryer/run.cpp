@@ -4,29 +4,42 @@
 
 #include "dryer/brownian.hpp"
 #include "dryer/inertial.hpp"
+#include "dryer/pair_statistics.hpp"
 #include "dryer/start.hpp"
 
 namespace crumble {
 
 namespace {
 
-std::unique_ptr<Integrator> make_integrator(const DryingScene& scene, double coarsening, Agglomerate& state) {
-  if (scene.inertial) return std::make_unique<Inertial>(scene.model, state, coarsening * scene.step, scene.seed);
-  if (scene.model.thermal_energy > 0) {
+std::unique_ptr<Integrator> make_integrator(const DryingScene& scene, const DryingModel& model, double coarsening,
+                                            Agglomerate& state) {
+  if (scene.inertial) return std::make_unique<Inertial>(model, state, coarsening * scene.step, scene.seed);
+  if (model.thermal_energy > 0) {
     BrownianControl control = scene.brownian;
     control.contact_step *= coarsening;
-    return std::make_unique<Brownian>(scene.model, state, scene.seed, control);
+    return std::make_unique<Brownian>(model, state, scene.seed, control);
   }
   OverdampedControl control = scene.control;
   control.largest_displacement *= coarsening;
   control.contact_precision *= coarsening;
-  return std::make_unique<Overdamped>(scene.model, state, control);
+  return std::make_unique<Overdamped>(model, state, control);
+}
+
+DryingModel effective_model(const DryingScene& scene) {
+  DryingModel model = scene.model;
+  if (scene.softens_contacts())
+    model.material = softened(model.material, *std::min_element(scene.radius.begin(), scene.radius.end()),
+                              model.thermal_energy, scene.softening);
+  return model;
 }
 
 }  // namespace
 
 DryingRun::DryingRun(const DryingScene& scene, double coarsening, Agglomerate state)
-    : scene_(scene), state_(std::move(state)), integrator_(make_integrator(scene, coarsening, state_)) {}
+    : scene_(scene),
+      model_(effective_model(scene)),
+      state_(std::move(state)),
+      integrator_(make_integrator(scene, model_, coarsening, state_)) {}
 
 DryingRun::DryingRun(const DryingScene& scene, double coarsening)
     : DryingRun(scene, coarsening,

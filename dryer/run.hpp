@@ -37,6 +37,7 @@ class DryingRun {
   DryingRun(const DryingScene& scene, double coarsening, Agglomerate state);
 
   const DryingScene& scene_;
+  DryingModel model_;  // the scene's, contacts softened where the scene has it so
   Agglomerate state_;
   std::unique_ptr<Integrator> integrator_;
 };

@@ -20,6 +20,8 @@ struct DryingScene {
   double step = 0;  // inertial only, s
   OverdampedControl control;
   BrownianControl brownian;
+  double softening = 1;  // of the contacts while particles diffuse
+  bool softens_contacts() const { return softening > 1 && model.thermal_energy > 0 && !inertial; }
   int frames = 0;
   bool estimate_error = true;
 };

@@ -90,6 +90,12 @@ const ParameterTable& drying_parameters() {
             .above(0)
             .at_most(0.2)
             .by_default(0.15),
+        P::real("softening", "",
+                "overdamped with Brownian motion: width of the bond in that of the material's; its strength is such "
+                "that pairs stay together as much. 1: full stiffness")
+            .at_least(1)
+            .at_most(4)
+            .by_default(1.5),
         P::real("step", "s", "inertial: the fixed step; without it a fifth of the time scale of the stiffest contact")
             .above(0)
             .optional()}},

@@ -11,11 +11,14 @@ using namespace crumble;
 
 namespace {
 
-DryingScene small_scene(const std::string& method) {
-  const std::string text =
-      "[particle]\nradius = 10e-9\nnumber = 20\n[droplet]\nradius = 120e-9\nlifetime = 2e-7\n"
-      "[integrator]\nmethod = \"" +
-      method + "\"\n";
+DryingScene small_scene(const std::string& kind) {
+  const bool brownian = kind == "brownian";
+  const std::string method = brownian ? "overdamped" : kind;
+  const std::string text = std::string("[particle]\nradius = 10e-9\nnumber = 20\nbrownian_motion = ") +
+                           (brownian ? "true" : "false") +
+                           "\n[droplet]\nradius = 120e-9\nlifetime = 2e-7\n"
+                           "[integrator]\nmethod = \"" +
+                           method + "\"\n";
   return drying_scene(Scene::parse(text, "small.toml", drying_parameters()));
 }
 
@@ -64,7 +67,7 @@ TEST_P(Restart, continues_to_the_same_bits_from_any_step) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Integrators, Restart, ::testing::Values("overdamped", "inertial"));
+INSTANTIATE_TEST_SUITE_P(Integrators, Restart, ::testing::Values("overdamped", "inertial", "brownian"));
 
 TEST(Checkpoint, of_another_scene_version_or_program_is_refused_with_the_difference) {
   const Folder folder;

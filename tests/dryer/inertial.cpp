@@ -77,7 +77,7 @@ TEST(Inertial, contacts_create_no_momentum) {
            I * (f.angular_velocity[0] + f.angular_velocity[1]);
   };
   const auto end = run(model, s, 1e-9, 1e-12).state;
-  EXPECT_LT((linear(end) - linear(s.state)).norm(), 5e-8 * linear(s.state).norm());  // drag: zeta t/m = 3.5e-8
+  EXPECT_LT((linear(end) - linear(s.state)).norm(), 5e-8 * linear(s.state).norm());     // drag: zeta t/m = 3.5e-8
   EXPECT_LT((angular(end) - angular(s.state)).norm(), 1e-5 * angular(s.state).norm());  // second order in the step
 }
 
