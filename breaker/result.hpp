@@ -15,7 +15,7 @@ void append_sample(AgglomerateWriter& writer, const BreakupRun& run);
 // Closing, flow and events: once, at the end.
 void write_rest(AgglomerateWriter& writer, const BreakupRun& run, const BreakerScene& scene, const Start& start);
 
-// Relative change of a length from the start of the flow to the last instant when the agglomerate was whole.
+// Relative change of a length from the start to shortly before breakup.
 double change(double before, double initial);
 // "brittle", "ductile" or "none".
 std::string breakage(const Breakup& breakup, const BreakerScene& scene);

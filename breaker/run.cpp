@@ -175,6 +175,13 @@ void BreakupRun::observe() {
   look_.largest_fragment = fragment_sizes(fragments(piece.member.size(), frame.contacts)).front();
   look_.network = network_state(frame.contacts, piece.integrator->network().laws());
   max_use_ = std::max(max_use_, look_.network.max_use);
+  if (!broken_ && (past_.empty() || look_.stress > 1.001 * past_.back().stress)) past_.push_back(look_);
+}
+
+// What it looked like shortly before: once the last avalanche has begun shape says nothing about the way to it.
+void BreakupRun::look_back(double stress) {
+  for (const Look& look : past_)
+    if (look.stress <= 0.99 * stress) breakup_.before = look;
 }
 
 namespace {
@@ -243,6 +250,7 @@ void BreakupRun::divide(std::size_t number) {
 void BreakupRun::end_with_breakup(double severed) {
   broken_ = true;
   breakup_.severed = severed;
+  look_back(severed);
   breakup_.lost = stress();
   if (!scene_.until_stable) {
     finished_ = true;
@@ -292,8 +300,6 @@ void BreakupRun::step() {
   const double now = piece.integrator->frame().time;
   const double latest = broken_ ? window_end_ : protocol_.stage_end(now);
   const bool changed = piece.integrator->step(latest);
-  const bool whole_before = look_.largest_fragment == static_cast<std::int64_t>(piece.member.size());
-  if (whole_before && !broken_) breakup_.before = look_;
   observe();
   const std::size_t told = events_.size();
   collect_events(piece);
@@ -312,9 +318,11 @@ void BreakupRun::step() {
   }
   if (stress() >= scene_.largest_stress) {
     finished_ = true;
+    look_back(2 * stress());
     ending_ = fmt::format("nothing broke up to protocol.largest_stress = {:g} Pa", scene_.largest_stress);
   } else if (time() >= protocol_.end()) {
     finished_ = true;
+    look_back(2 * stress());
     ending_ = "nothing broke until the end of the protocol";
   }
 }
@@ -331,6 +339,8 @@ BreakupRun::Memory BreakupRun::memory() const {
   put_look(look_);
   put_look(breakup_.initial);
   put_look(breakup_.before);
+  m.counts.push_back(static_cast<std::int64_t>(past_.size()));
+  for (const Look& look : past_) put_look(look);
   for (const auto& stress : {breakup_.first_limit, breakup_.first_rupture, breakup_.severed, breakup_.lost})
     m.numbers.push_back(stress.value_or(-1));
   m.numbers.insert(m.numbers.end(), {window_end_, max_use_, retired_.largest_overlap});
@@ -376,6 +386,8 @@ void BreakupRun::recall(const Memory& m) {
   take_look(look_);
   take_look(breakup_.initial);
   take_look(breakup_.before);
+  past_.resize(static_cast<std::size_t>(*count++));
+  for (Look& look : past_) take_look(look);
   for (auto* stress : {&breakup_.first_limit, &breakup_.first_rupture, &breakup_.severed, &breakup_.lost}) {
     *stress = *number < 0 ? std::nullopt : std::optional(*number);
     ++number;

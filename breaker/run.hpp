@@ -84,6 +84,7 @@ class BreakupRun {
   Frame whole_;                     // what is no longer in any piece
   std::vector<double> severed_at_;  // stress at which each particle left the largest fragment, -1: it is in it
   std::vector<Event> events_;
+  std::vector<Look> past_;  // a look every thousandth of the stress
   Look look_;
   Breakup breakup_;
   double max_use_ = 0;
@@ -101,6 +102,7 @@ class BreakupRun {
   void settle();
   void next_turn();
   void observe();
+  void look_back(double stress);
 };
 
 }  // namespace crumble

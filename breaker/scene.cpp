@@ -93,10 +93,11 @@ const ParameterTable& breaker_parameters() {
         P::real("stable_strain", "", "until_stable: strain without a rupture that counts as stable")
             .above(0)
             .by_default(20),
-        P::real("brittle_below", "",
-                "Relative change of the largest semi-axis before rupture below which breakage is called brittle")
+        P::real(
+            "brittle_below", "",
+            "Relative change of the largest semi-axis, 1 % of stress before breakup, below which it is called brittle")
             .above(0)
-            .by_default(0.05)}},
+            .by_default(0.1)}},
       {"integrator",
        "How the equations are solved.",
        {P::choice("method", {"implicit", "explicit"},

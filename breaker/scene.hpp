@@ -27,7 +27,7 @@ struct BreakerScene {
   bool until_stable = false;
   double stable_strain = 20;    // without rupture, at constant stress
   double largest_stress = 1e5;  // Pa
-  double brittle_below = 0.05;  // relative change of the largest semi-axis
+  double brittle_below = 0.1;   // relative change of the largest semi-axis
   bool estimate_error = true;
   double sample_interval = 5, frame_interval = 50;  // Pa
 };
