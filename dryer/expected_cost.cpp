@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "dryer/run.hpp"
+
 namespace crumble {
 
 namespace {
@@ -19,24 +21,34 @@ std::string rounded(double steps) {
   return steps < 1e5 ? fmt::format("{:.0f}", std::round(steps / 10) * 10) : fmt::format("{:.1e}", steps);
 }
 
+// The long step, s; it is the same for one particle as for all.
+double brownian_step(const DryingScene& s) {
+  DryingScene one = s;
+  one.radius.resize(1);
+  const DryingRun run(one, 1);
+  return dynamic_cast<const Brownian&>(run.integrator()).long_step();
+}
+
 }  // namespace
 
-std::optional<ExpectedCost> expected_cost(const DryingScene& s) {
+ExpectedCost expected_cost(const DryingScene& s) {
   const double N = static_cast<double>(s.radius.size());
   if (s.inertial) {
     const double steps = s.model.droplet.lifetime / s.step;
-    return ExpectedCost{steps, 0.05e-6 * N * steps};
+    return {steps, 0.05e-6 * N * steps};
   }
-  if (s.model.thermal_energy > 0) return {};
+  if (s.model.thermal_energy > 0) {
+    const double steps = s.model.droplet.lifetime / brownian_step(s);
+    return {steps, 2e-6 * N * steps};
+  }
   const double advance = s.model.droplet.initial_radius / s.radius.front() / s.control.largest_displacement;
   const double steps = advance / 0.8 + 5.5 * N;
-  return ExpectedCost{steps, 3e-6 * std::pow(N, 0.23) * N * steps};
+  return {steps, 3e-6 * std::pow(N, 0.23) * N * steps};
 }
 
 std::string expected_cost_text(const DryingScene& s) {
-  const auto cost = expected_cost(s);
-  if (!cost) return "expected: cost not known";
-  return fmt::format("expected: about {} steps, {} on one core{}", rounded(cost->steps), duration(cost->seconds),
+  const ExpectedCost cost = expected_cost(s);
+  return fmt::format("expected: about {} steps, {} on one core{}", rounded(cost.steps), duration(cost.seconds),
                      s.estimate_error ? ", and about half as much for the error estimate" : "");
 }
 

@@ -1,7 +1,6 @@
 // What a run will take, before it is begun.
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "dryer/scene.hpp"
@@ -16,10 +15,10 @@ struct ExpectedCost {
 // From counts and times of runs of ours (November 2026, Intel Xeon, one core):
 //   overdamped, D = 0: one step for each 0.8 of the largest displacement that the front advances, and 5.5 for each
 //     particle, whose contacts end steps; 6 microseconds a particle and step at N = 30, 9 at 115, 12 at 400
+//   overdamped, Brownian: fixed steps; 2.2 microseconds a particle and long step at N = 30, 1.95 at 102, Pe = 10
 //   inertial: fixed step; 0.05 microseconds a particle and step
-// Steps agree within 25 % for N = 30 to 400; take the time as right within a factor of 2 to 3.
-// Nothing for overdamped Brownian runs, whose step is not measured yet.
-std::optional<ExpectedCost> expected_cost(const DryingScene& scene);
+// Steps at D = 0 agree within 25 % for N = 30 to 400; take the time as right within a factor of 2 to 3.
+ExpectedCost expected_cost(const DryingScene& scene);
 
 // "expected: about 1900 steps, 2 s on one core".
 std::string expected_cost_text(const DryingScene& scene);
