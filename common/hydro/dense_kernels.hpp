@@ -18,11 +18,11 @@ using ConstBlock = Eigen::Ref<const Matrix<Scalar>, 0, Eigen::OuterStride<>>;
 
 // In-place Cholesky factor in the lower triangle; the upper one is left undefined. Returns 0, or the order of the first
 // leading minor that is not positive definite. Works by tiles, on several OpenMP threads from order `threads_pay_from`
-// on (waking them costs more than it gains below), on one inside parallel regions; results do not depend on their
-// number.
+// on (60 ms of one core: where other programs hold the cores, waiting for a thread costs more than it gains below), on
+// one inside parallel regions; results do not depend on their number.
 template <class Scalar>
 int cholesky(Block<Scalar> a);
-inline constexpr int threads_pay_from = 1000;
+inline constexpr int threads_pay_from = 2000;
 
 extern template int cholesky<float>(Block<float>);
 extern template int cholesky<double>(Block<double>);

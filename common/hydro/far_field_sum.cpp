@@ -115,7 +115,7 @@ void FarFieldSum::apply(const double* q, double* w) const {
   constexpr double oseen = 1 / (8 * std::numbers::pi);
   const double* q_motion = q + 5 * n_;
   double* w_motion = w + 5 * n_;
-#pragma omp parallel for schedule(static) if (n_ > 400)
+#pragma omp parallel for schedule(static) if (n_ > 1000)
   for (int i = 0; i < n_; ++i) {
     const Field f =
         field_at(x_[i], y_[i], z_[i], radius2_[i], x_.data(), y_.data(), z_.data(), radius2_.data(), sources);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <vector>
 
 namespace crumble {
@@ -13,10 +14,10 @@ struct KrylovResult {
   bool converged = false;
 };
 
-// Solves A x = b until |P^-1 (b - A x)| <= tolerance |x|: with P close to A this is the relative error of x itself,
-// which a small residual is not when A has soft and stiff directions. apply(v) returns A v, precondition(v) about A^-1
-// v; as the residual is that of A, the preconditioner may be as inexact as float32. No restart: memory is 2 limit
-// vectors.
+// Solves A x = b to an error of tolerance |x|. With P close to A the error is P^-1 (b - A x), which a small residual
+// does not bound when A has soft and stiff directions; it is added to x, and what remains is smaller by about the
+// factor that the last iteration gained. apply(v) returns A v, precondition(v) about A^-1 v; as the residual is that of
+// A, the preconditioner may be as inexact as float32. No restart: memory is 2 limit vectors.
 template <class Apply, class Precondition>
 KrylovResult gmres(const Apply& apply, const Precondition& precondition, const Eigen::VectorXd& b, double tolerance,
                    int limit) {
@@ -30,7 +31,8 @@ KrylovResult gmres(const Apply& apply, const Precondition& precondition, const E
   }
   std::vector<Eigen::VectorXd> basis = {b / beta}, directions;
   Eigen::MatrixXd H = Eigen::MatrixXd::Zero(limit + 1, limit);
-  double target = tolerance;  // of the residual, sharpened as long as the error is not small enough
+  double target = 30 * tolerance;  // of the residual, sharpened as long as the error is not small enough
+  double before = beta;
   for (int k = 0; k < limit; ++k) {
     directions.push_back(precondition(basis.back()));
     Eigen::VectorXd v = apply(directions.back());
@@ -47,6 +49,8 @@ KrylovResult gmres(const Apply& apply, const Precondition& precondition, const E
     const Eigen::VectorXd right = beta * Eigen::VectorXd::Unit(k + 2, 0);
     const Eigen::VectorXd coefficients = small.colPivHouseholderQr().solve(right);
     const Eigen::VectorXd rest = right - small * coefficients;
+    const double gain = std::min(1.0, rest.norm() / before);
+    before = rest.norm();
     if (rest.norm() > target * beta && k + 1 < limit) continue;
 
     result.solution.setZero();
@@ -54,7 +58,7 @@ KrylovResult gmres(const Apply& apply, const Precondition& precondition, const E
     Eigen::VectorXd residual = Eigen::VectorXd::Zero(b.size());
     for (int j = 0; j <= k + 1; ++j) residual += rest[j] * basis[j];
     const Eigen::VectorXd correction = precondition(residual);
-    result.error = correction.norm() / result.solution.norm();
+    result.error = gain * correction.norm() / result.solution.norm();
     result.solution += correction;
     if (result.error <= tolerance) {
       result.converged = true;

@@ -83,9 +83,10 @@ MobilityMatrix multipole_mobility(const Spheres& spheres, int order) {
 
   std::vector<Scales> scale;
   for (const double a : spheres.radius) scale.push_back(scales(list, a));
-  RowMajor block(table.unknowns, table.unknowns);
-  std::vector<double> V;
+#pragma omp parallel for schedule(dynamic) if (n > 8)
   for (int j = 0; j < n; ++j) {
+    RowMajor block(table.unknowns, table.unknowns);
+    std::vector<double> V;
     M.diagonal().segment(inner * j, inner) = scale[j].self.head(inner);
     M.diagonal().segment(inner * n + 6 * j, 6) = scale[j].self.tail(6);
     for (int i = j + 1; i < n; ++i) {

@@ -94,7 +94,7 @@ Eigen::VectorXd SparseInverse::apply(const Eigen::VectorXd& r) const {
   const int n = static_cast<int>(columns_.size());
   const Eigen::VectorXf r32 = r.cast<float>();
   Eigen::Matrix<float, 11, Eigen::Dynamic> y(11, n);
-#pragma omp parallel for schedule(static) if (n > 400)
+#pragma omp parallel for schedule(static) if (n > 1000)
   for (int k = 0; k < n; ++k) {
     const Columns& c = columns_[static_cast<std::size_t>(k)];
     Eigen::Matrix<float, 11, 1> sum = Eigen::Matrix<float, 11, 1>::Zero();

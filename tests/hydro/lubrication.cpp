@@ -134,7 +134,12 @@ TEST(Lubrication, PrintedFormDragsACompactClusterMoreThanItsEnclosingSphere) {
   };
   EXPECT_LT(mean_drag(Rung::fts, 0), enclosing);
   EXPECT_LT(mean_drag(Rung::fts_relative_lubrication, 4), enclosing);
+  EXPECT_LT(mean_drag(Rung::multipole, 0), enclosing);
   EXPECT_GT(mean_drag(Rung::fts_lubrication, 4), enclosing);  // the known failure, asserted as known
+  // An enclosed sphere: the largest drag of any part of the cluster is a lower bound as well.
+  const double doublet = response(chain(2), model(Rung::fts)).drag.topLeftCorner<3, 3>().trace() / (18 * pi);
+  for (const Rung rung : {Rung::fts, Rung::fts_relative_lubrication, Rung::multipole})
+    EXPECT_GT(mean_drag(rung, 2.5), doublet);
 }
 
 // Largest bond tension of dried clusters in elongation, in three fixed orientations and in the worst one, against
