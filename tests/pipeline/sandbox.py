@@ -37,7 +37,7 @@ done
 cat > "$report" << EOF
 {"program": "dryer", "version": "0", "scene": "$scene", "seed": $seed, "wall_s": 1.5, "cpu_s": 1.25,
  "peak_rss_bytes": 1, "steps": 10, "results": {"d_c_nm": 160, "h_c_over_d_c": 0.3, "contacts": 17$seed,
- "coordination": 3}, "errors": {"d_c_relative": {"value": 0.01, "how": "halving"}}, "left_out": []}
+ "coordination": 3, "fragments": 1}, "errors": {"d_c_relative": {"value": 0.01, "how": "halving"}}, "left_out": []}
 EOF
 [[ ${BREAK:-} != "$seed" ]] || exit 1
 echo "seed $seed: a message" >&2

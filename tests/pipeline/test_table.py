@@ -10,7 +10,8 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 def report(seed, d_c, contacts, **errors):
     return {"program": "dryer", "version": "0.1.0", "scene": "hollow.toml", "seed": seed, "wall_s": 2.0, "cpu_s": 1.5,
             "peak_rss_bytes": 1, "steps": 100 * seed,
-            "results": {"d_c_nm": d_c, "h_c_over_d_c": 0.3, "contacts": contacts, "coordination": 2 * contacts / 115},
+            "results": {"d_c_nm": d_c, "h_c_over_d_c": 0.3, "contacts": contacts, "coordination": 2 * contacts / 115,
+                        "fragments": 1},
             "errors": {key: {"value": value, "how": "by halving"} for key, value in errors.items()},
             "left_out": ["Brownian motion: D = 0"]}
 
@@ -22,7 +23,7 @@ class Table(unittest.TestCase):
             for i, content in enumerate(reports):
                 names.append(f"{folder}/{i}.json")
                 pathlib.Path(names[-1]).write_text(json.dumps(content))
-            return subprocess.run(["/usr/bin/python3", "-B", ROOT / "pipeline/report/hollow.py", *names], text=True,
+            return subprocess.run(["/usr/bin/python3", "-B", ROOT / "pipeline/report/granules.py", "hollow", *names], text=True,
                                   capture_output=True)
 
     def row(self, done, name):
@@ -34,7 +35,10 @@ class Table(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(self.row(done, "mean"), ["160.0", "0.300", "175.0", "3.04", "4.50"])
         self.assertEqual(self.row(done, "spread"), ["10.0", "0.000", "5.0", "0.09"])
-        self.assertEqual(self.row(done, "2"), ["160.0", "0.300", "180", "3.13", "200", "2.00", "1.50"])
+        # Student's t for three: 4.30/sqrt(3) = 2.483 spreads.
+        self.assertEqual(self.row(done, "+-95%"), ["24.8", "0.000", "12.4", "0.22"])
+        self.assertEqual(self.row(done, "place"), ["+0.0", "-", "+1.8", "+1.6"])
+        self.assertEqual(self.row(done, "2"), ["160.0", "0.300", "180", "3.13", "1", "200", "2.00", "1.50"])
 
     def test_the_error_is_the_largest_of_the_seeds_in_the_unit_of_its_column(self):
         errors = {"h_c_over_d_c": 0.002, "contacts_relative": 0.0}

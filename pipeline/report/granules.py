@@ -1,0 +1,163 @@
+"""Table of granules beside Table 2 of Vasquez Giuliano et al. (2022): granules.py ROW REPORT.json... [-- ROW ...]
+
+ROW is hollow (Pe -> infinity), intermediate (Pe = 10) or compact (Pe = 1)."""
+
+import json
+import math
+import pathlib
+import statistics
+import sys
+import textwrap
+
+# What the paper gives, one realisation each. Contacts and coordination of the hollow one: 185 in the first description,
+# 183 in the evolution (3.18 = 2 * 183 / 115); of the compact one: coordination before loading (section 3.3).
+PAPER = {
+    "hollow": {"title": "Pe -> infinity, N = 115", "d_c_nm": 160, "h_c_over_d_c": 0.28, "contacts": 184,
+               "coordination": 3.18},
+    "intermediate": {"title": "Pe = 10, N = 102", "d_c_nm": 132, "h_c_over_d_c": 0.43},
+    "compact": {"title": "Pe = 1, N = 85", "d_c_nm": 132, "h_c_over_d_c": 0.44, "contacts": 177, "coordination": 4.16},
+}
+
+# Differences of means to full stiffness and a shorter step, found by `make verify` and kept.
+STORED = pathlib.Path(__file__).parent.parent / "verify" / "brownian.json"
+
+# key of the result, heading, format, key of its error in the report, whether that is a fraction of the value
+COLUMNS = [
+    ("d_c_nm", "d_c nm", "{:.1f}", "d_c_relative", True),
+    ("h_c_over_d_c", "h_c/d_c", "{:.3f}", "h_c_over_d_c", False),
+    ("contacts", "contacts", "{:.1f}", "contacts_relative", True),
+    ("coordination", "coordination", "{:.2f}", "contacts_relative", True),
+]
+
+
+# Student's t for a 95 % interval, by degrees of freedom.
+T95 = {1: 12.71, 2: 4.30, 3: 3.18, 4: 2.78, 5: 2.57, 6: 2.45, 7: 2.36, 8: 2.31, 9: 2.26, 11: 2.20, 14: 2.14, 19: 2.09}
+
+
+def t95(n):
+    return T95[max(k for k in T95 if k <= n - 1)]
+
+
+def largest_error(reports, key):
+    """The largest of the runs, or None if any run has not estimated it."""
+    values = [report["errors"].get(key, {}).get("value") for report in reports]
+    return None if any(value is None for value in values) else max(abs(value) for value in values)
+
+
+def stored_errors(row):
+    return json.loads(STORED.read_text(encoding="utf-8")).get(row) if STORED.exists() else None
+
+
+def error_cell(row, reports, mean, column):
+    _, _, form, key, relative = column
+    error = largest_error(reports, key)
+    if error is None and stored_errors(row):
+        error = abs(stored_errors(row)[key]["difference"])
+    if error is None:
+        return "?"
+    error = error * abs(mean) if relative else error
+    return "0" if error == 0 else "{:.1g}".format(error) if error < 0.1 else form.format(error)
+
+
+def one_run(value, column):
+    return str(value) if isinstance(value, int) else column[2].format(value)  # a count is whole, its mean is not
+
+
+def paper_cell(row, column):
+    value = PAPER[row].get(column[0])
+    return "-" if value is None else column[2].format(value)
+
+
+def place_cell(row, reports, column):
+    """Where the paper's one value lies among ours, in standard deviations from the mean."""
+    value = PAPER[row].get(column[0])
+    values = [r["results"][column[0]] for r in reports]
+    if value is None or len(values) < 3 or statistics.stdev(values) == 0:
+        return "-"
+    return f"{(value - statistics.fmean(values)) / statistics.stdev(values):+.1f}"
+
+
+def table(row, reports):
+    rows = [["seed"] + [column[1] for column in COLUMNS] + ["fragments", "steps", "wall s", "cpu s"]]
+    for report in sorted(reports, key=lambda r: r["seed"]):
+        cells = [one_run(report["results"][column[0]], column) for column in COLUMNS]
+        cost = [str(report["results"]["fragments"]), str(report["steps"]), f"{report['wall_s']:.2f}",
+                f"{report['cpu_s']:.2f}"]
+        rows.append([str(report["seed"])] + cells + cost)
+    blank = ["", "", "", ""]
+    means = [statistics.fmean(r["results"][column[0]] for r in reports) for column in COLUMNS]
+    if len(reports) > 1:
+        total = ["", "", "", f"{sum(r['cpu_s'] for r in reports):.2f}"]
+        rows.append(["mean"] + [column[2].format(mean) for column, mean in zip(COLUMNS, means)] + total)
+        spread = [statistics.stdev(r["results"][column[0]] for r in reports) for column in COLUMNS]
+        rows.append(["spread"] + [column[2].format(s) for column, s in zip(COLUMNS, spread)] + blank)
+        half = t95(len(reports)) / math.sqrt(len(reports))
+        rows.append(["+-95%"] + [column[2].format(half * s) for column, s in zip(COLUMNS, spread)] + blank)
+    rows.append(["error"] + [error_cell(row, reports, mean, c) for c, mean in zip(COLUMNS, means)] + blank)
+    rows.append(["paper"] + [paper_cell(row, column) for column in COLUMNS] + blank)
+    if len(reports) > 2:
+        rows.append(["place"] + [place_cell(row, reports, column) for column in COLUMNS] + blank)
+    widths = [max(len(cells[i]) for cells in rows) for i in range(len(rows[0]))]
+    lines = ["  ".join(cell.rjust(width) for cell, width in zip(cells, widths)).rstrip() for cells in rows]
+    lines.insert(1, "-" * max(len(line) for line in lines))
+    lines.insert(2 + len(reports), lines[1])
+    return lines
+
+
+def notes(row, reports):
+    first = reports[0]
+    out = []
+    overlap = largest_error(reports, "largest_overlap_over_a")
+    if overlap is not None:
+        out.append(f"largest overlap of two particles: {overlap:.2g} a")
+    stored = stored_errors(row)
+    if stored and largest_error(reports, "d_c_relative") is None:
+        out.append(f"error, from stored results of `make -C pipeline verify`: {stored['how']}")
+    else:
+        keys_of = {}
+        for key, error in first["errors"].items():
+            keys_of.setdefault(error["how"], []).append(key)
+        out += [f"{', '.join(keys)}: {how}" for how, keys in keys_of.items()]
+    for text in first["left_out"]:
+        out.append(f"left out: {text}")
+    return [line for text in out for line in textwrap.wrap(text, 110, subsequent_indent="    ")]
+
+
+def read(name):
+    with open(name, encoding="utf-8") as file:
+        report = json.load(file)
+    for column in COLUMNS:
+        value = report["results"].get(column[0])
+        if not isinstance(value, (int, float)) or not math.isfinite(value):
+            sys.exit(f"{name}: results/{column[0]}: expected a finite number, found {value!r}")
+    return report
+
+
+def groups(arguments):
+    """[(row, [report])] from ROW FILE... -- ROW FILE..."""
+    out = []
+    while arguments:
+        end = arguments.index("--") if "--" in arguments else len(arguments)
+        row, names, arguments = arguments[0], arguments[1:end], arguments[end + 1:]
+        if row not in PAPER or not names:
+            sys.exit(__doc__)
+        out.append((row, [read(name) for name in names]))
+    return out
+
+
+def main(arguments):
+    if not arguments:
+        sys.exit(__doc__)
+    for row, reports in groups(arguments):
+        granules = "granule" if len(reports) == 1 else "granules"
+        program = f"{reports[0]['program']} {reports[0]['version']}"
+        print(f"{len(reports)} {row} {granules} ({PAPER[row]['title']}), {program}, {reports[0]['scene']}\n")
+        print("\n".join(table(row, reports) + [""] + notes(row, reports)) + "\n")
+    print("mean: over the seeds (cpu s: the sum). spread: standard deviation between seeds. +-95%: of the mean.\n"
+          "error: numerical error, the largest of the seeds (?: not estimated).\n"
+          "paper: Vasquez Giuliano et al. 2022, Table 2 and sections 3.1, 3.3, one realisation; place: where it lies\n"
+          "    among ours, in spreads from the mean.")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
