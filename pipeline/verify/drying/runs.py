@@ -32,10 +32,10 @@ def arguments(description, seeds):
     return parser.parse_args()
 
 
-def run(name, seed, settings):
+def run(name, seed, settings, scene=SCENE):
     """Dries one droplet; what the report and the file say, the file's contacts counted at two gaps."""
     out = f"{RESULTS}/{name}-{seed}"
-    command = [DRYER, SCENE, "--seed", str(seed), "--threads", "1", "--quiet"]
+    command = [DRYER, scene, "--seed", str(seed), "--threads", "1", "--quiet"]
     command += ["-o", f"{out}.h5", "--report", f"{out}.json"]
     for key, value in {**BARE, **settings}.items():
         command += ["--set", f"{key}={value}"]
@@ -62,12 +62,12 @@ def pairs_within(name, fraction):
     return int(numpy.count_nonzero(gap < fraction * radius.mean()))
 
 
-def run_all(cases, seeds, jobs):
+def run_all(cases, seeds, jobs, scene=SCENE):
     """cases: {name: settings}. The runs of each name in the order of the seeds; the longest cases first keep both
     processors busy, so give them in that order."""
     (ROOT / RESULTS).mkdir(parents=True, exist_ok=True)
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        futures = {name: [pool.submit(run, name, seed, settings) for seed in seeds] for name, settings in cases.items()}
+        futures = {name: [pool.submit(run, name, seed, settings, scene) for seed in seeds] for name, settings in cases.items()}
         try:
             return {name: [future.result() for future in rows] for name, rows in futures.items()}
         except BaseException:
