@@ -18,14 +18,20 @@ double smallest(const std::vector<double>& radius) { return *std::min_element(ra
 // Six standard deviations of the approach of two particles within `time`, m.
 double approach(double diffusivity, double time) { return 6 * std::sqrt(4 * diffusivity * time); }
 
-double short_step(const DryingModel& model, double a, double contact_step) {
+}  // namespace
+
+double Brownian::short_step(const DryingModel& model, double a, double contact_step) {
   const BondLaw law(model.contact, model.material, a, a);
-  return contact_step * drag_coefficient(model.viscosity, a) / std::max(law.normal_stiffness(), law.k_s);
+  // Dry particles may move more easily; their contacts must be resolved too.
+  const double drag = std::min(1.0, model.dry.drag_factor) * drag_coefficient(model.viscosity, a);
+  return contact_step * drag / std::max(law.normal_stiffness(), law.k_s);
 }
+
+namespace {
 
 double margin(const DryingModel& model, double a, const BrownianControl& control) {
   const double D = model.thermal_energy / drag_coefficient(model.viscosity, a);
-  return approach(D, std::ldexp(short_step(model, a, control.contact_step), control.depth));
+  return approach(D, std::ldexp(Brownian::short_step(model, a, control.contact_step), control.depth));
 }
 
 }  // namespace
@@ -36,7 +42,7 @@ Brownian::Brownian(const DryingModel& model, Agglomerate& state, std::uint64_t s
                                    smallest(state.particles.radius))),
       control_(control),
       path_(seed),
-      dt_(crumble::short_step(model, smallest(state.particles.radius), control.contact_step)),
+      dt_(short_step(model, smallest(state.particles.radius), control.contact_step)),
       margin_(margin(model, smallest(state.particles.radius), control)),
       substeps_(1 << control.depth),
       ahead_(state.particles.size(), Vector6::Zero()),

@@ -32,6 +32,8 @@ class Brownian : public Integrator {
   Memory memory() const override;
   void recall(const Memory& memory) override;
 
+  // contact_step times zeta/k_n of the smallest pair, s.
+  static double short_step(const DryingModel& model, double a, double contact_step);
   double short_step() const { return dt_; }
   double long_step() const { return dt_ * static_cast<double>(substeps_); }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "dryer/run.hpp"
@@ -21,14 +22,6 @@ std::string rounded(double steps) {
   return steps < 1e5 ? fmt::format("{:.0f}", std::round(steps / 10) * 10) : fmt::format("{:.1e}", steps);
 }
 
-// The long step, s; it is the same for one particle as for all.
-double brownian_step(const DryingScene& s) {
-  DryingScene one = s;
-  one.radius.resize(1);
-  const DryingRun run(one, 1);
-  return dynamic_cast<const Brownian&>(run.integrator()).long_step();
-}
-
 }  // namespace
 
 ExpectedCost expected_cost(const DryingScene& s) {
@@ -38,7 +31,9 @@ ExpectedCost expected_cost(const DryingScene& s) {
     return {steps, 0.05e-6 * N * steps};
   }
   if (s.model.thermal_energy > 0) {
-    const double steps = s.model.droplet.lifetime / brownian_step(s);
+    const double a = *std::min_element(s.radius.begin(), s.radius.end());
+    const double step = Brownian::short_step(effective_model(s), a, s.brownian.contact_step);
+    const double steps = s.model.droplet.lifetime / std::ldexp(step, s.brownian.depth);
     return {steps, 2e-6 * N * steps};
   }
   const double advance = s.model.droplet.initial_radius / s.radius.front() / s.control.largest_displacement;

@@ -25,6 +25,8 @@ std::unique_ptr<Integrator> make_integrator(const DryingScene& scene, const Dryi
   return std::make_unique<Overdamped>(model, state, control);
 }
 
+}  // namespace
+
 DryingModel effective_model(const DryingScene& scene) {
   DryingModel model = scene.model;
   if (scene.softens_contacts())
@@ -32,8 +34,6 @@ DryingModel effective_model(const DryingScene& scene) {
                               model.thermal_energy, scene.softening);
   return model;
 }
-
-}  // namespace
 
 DryingRun::DryingRun(const DryingScene& scene, double coarsening, Agglomerate state)
     : scene_(scene),

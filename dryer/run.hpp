@@ -37,10 +37,13 @@ class DryingRun {
   DryingRun(const DryingScene& scene, double coarsening, Agglomerate state);
 
   const DryingScene& scene_;
-  DryingModel model_;  // the scene's, contacts softened where the scene has it so
+  DryingModel model_;
   Agglomerate state_;
   std::unique_ptr<Integrator> integrator_;
 };
+
+// What the integrator is given: the scene's model, its contacts softened where the scene has it so.
+DryingModel effective_model(const DryingScene& scene);
 
 // What a run came to; the companion run of the error estimate leaves just this.
 struct DryingOutcome {
