@@ -52,7 +52,7 @@ void advance(BreakupRun& run, const BreakerScene& scene, AgglomerateWriter& writ
     progress.say(fmt::format("rigid but for elastic contacts up to {:.1f} Pa ({} steps); from here it is flexible",
                              *run.breakup().first_limit, run.statistics().rigid_steps));
   if (run.stress() >= p.next_sample) put_sample(writer, run, scene, p);
-  if (run.stress() >= p.next_frame && !run.finished()) put_frame(writer, run, scene, p);
+  if ((run.stress() >= p.next_frame || run.at_stage_end()) && !run.finished()) put_frame(writer, run, scene, p);
   progress.update(run.fraction(), run.statistics().steps, [&] {
     return fmt::format("{:.0f} Pa, {} contacts, largest tension {:.2f} F_po", run.stress(), run.look().contacts,
                        run.look().network.max_use);

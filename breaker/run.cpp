@@ -300,6 +300,7 @@ void BreakupRun::step() {
   const double now = piece.integrator->frame().time;
   const double latest = broken_ ? window_end_ : protocol_.stage_end(now);
   const bool changed = piece.integrator->step(latest);
+  at_stage_end_ = !broken_ && piece.integrator->frame().time == latest;
   observe();
   const std::size_t told = events_.size();
   collect_events(piece);

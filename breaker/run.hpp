@@ -40,6 +40,8 @@ class BreakupRun {
   // One step of one piece. Events go into events().
   void step();
   bool finished() const { return finished_; }
+  // Whether the last step ended a stage of the protocol.
+  bool at_stage_end() const { return at_stage_end_; }
   // Why it ended, if not by breakup.
   const std::string& ending() const { return ending_; }
 
@@ -89,7 +91,7 @@ class BreakupRun {
   Breakup breakup_;
   double max_use_ = 0;
   IntegratorStatistics retired_;  // of integrators that are gone
-  bool finished_ = false, broken_ = false;
+  bool finished_ = false, broken_ = false, at_stage_end_ = false;
   std::string ending_;
 
   std::unique_ptr<Integrator> integrate(const Piece& piece, Frame frame) const;

@@ -14,7 +14,7 @@ CMAKE = """#!/bin/bash
 echo "cmake $*" >> "$LOG"
 [[ $1 == --build ]] || exit 0
 mkdir -p build/release/bin
-for program in dryer agglomerate rigidstress; do
+for program in dryer agglomerate rigidstress breaker; do
   [[ -f build/release/bin/$program ]] || { cp "$PROGRAMS/$program" build/release/bin/ && sleep 0.02; }
 done
 """
@@ -80,6 +80,7 @@ class Sandbox(unittest.TestCase):
         self.stand_in("dryer", DRYER, self.programs)
         self.stand_in("agglomerate", AGGLOMERATE, self.programs)
         self.stand_in("rigidstress", RIGIDSTRESS, self.programs)
+        self.stand_in("breaker", RIGIDSTRESS.replace("rigidstress", "breaker"), self.programs)
 
     def stand_in(self, name, text, folder=None):
         path = (folder or self.bin) / name

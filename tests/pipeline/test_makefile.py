@@ -149,6 +149,17 @@ class Stages(Sandbox):
         self.assertIn("which agglomerate?", self.make("stress").stderr)
         self.assertIn("absent.h5: no such file", self.make("stress", "AGGLOMERATE=absent.h5").stderr)
 
+    def test_breakup_runs_both_programs_and_the_table(self):
+        (self.root / "my granule.h5").write_text("x")
+        done = self.make("breakup", "AGGLOMERATE=my granule.h5", "THREADS=1", "PYTHON=echo table of")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        out = "pipeline/results/my granule-breakup"
+        self.assertEqual(self.called("breaker"), [f"breaker pipeline/scenes/breakup.toml my granule.h5 -o {out}.h5 "
+                                                  f"--report {out}.json --threads 1"])
+        self.assertIn(f"my granule.h5 -o {out}-rigid.h5", self.called("rigidstress")[0])
+        self.assertIn(f"table of pipeline/report/breakup.py {out}.h5", done.stdout)
+        self.assertIn("which agglomerate?", self.make("breakup").stderr)
+
     def test_check_hands_on_the_verdict(self):
         self.assertEqual(self.make("check", "FILE=a b.h5").returncode, 0)
         self.assertEqual(self.called("agglomerate"), ["agglomerate check a b.h5"])

@@ -1,0 +1,64 @@
+"""One breakup as tables: size, shape and contacts against flow stress (Fig 7 of Vasquez Giuliano et al. 2022) as CSV, what
+happened to the contacts as CSV, and the critical stress beside the prediction for a rigid agglomerate.
+
+    breakup.py BREAKUP.h5      (with BREAKUP.json and, if it is there, BREAKUP-rigid.json beside it)
+"""
+import csv
+import json
+import pathlib
+import sys
+
+import h5py
+
+KINDS = ["slips", "twists", "rolls", "breaks", "made", "fragment lost"]
+COLUMNS = {"flow_stress": "flow_stress_pa", "radius_of_gyration": "radius_of_gyration_nm",
+           "semi_axis_largest": "semi_axis_largest_nm", "semi_axis_middle": "semi_axis_middle_nm",
+           "semi_axis_smallest": "semi_axis_smallest_nm", "contacts": "contacts", "largest_fragment": "largest_fragment",
+           "max_tension": "max_tension_n", "slipping": "slipping", "twisting": "twisting", "rolling": "rolling"}
+
+
+def write(path, header, rows):
+    temporary = path.with_suffix(".csv.tmp")
+    with temporary.open("w", newline="") as file:
+        csv.writer(file, lineterminator="\n").writerows([header, *rows])
+    temporary.rename(path)
+
+
+def tables(path):
+    stem = path.with_suffix("")
+    with h5py.File(path) as file:
+        series = [file[f"series/{name}/value"][:] for name in COLUMNS]
+        particles = len(file["particles/all/radius"])
+        contacts = series[list(COLUMNS).index("contacts")]
+        rows = [[f"{v:.7g}" for v in (*row, 2 * c / particles)] for row, c in zip(zip(*series), contacts)]
+        write(stem.with_name(stem.name + "-course.csv"), [*COLUMNS.values(), "coordination"], rows)
+        events = zip(file["events/time"][:], file["events/stress"][:], file["events/kind"][:], file["events/pair"][:])
+        write(stem.with_name(stem.name + "-events.csv"), ["time_s", "flow_stress_pa", "what", "i", "j"],
+              [[f"{t:.9g}", f"{s:.7g}", KINDS[kind], i, j] for t, s, kind, (i, j) in events])
+    return stem
+
+
+def main(path):
+    stem = tables(path)
+    found = json.loads(path.with_suffix(".json").read_text())
+    result, error = found["results"], found["errors"]["critical_stress_relative"]["value"]
+    rigid = stem.with_name(stem.name + "-rigid.json")
+    print(f"{'critical stress, flexible':34}", "nothing broke" if result["critical_stress_pa"] is None else
+          f"{result['critical_stress_pa']:.0f} Pa" + (f" +- {100 * error:.2g} %" if error is not None else ""))
+    if result["first_rupture_stress_pa"] is not None:
+        print(f"{'first contact breaks':34} {result['first_rupture_stress_pa']:.0f} Pa")
+    if rigid.exists():
+        elongation = json.loads(rigid.read_text())["results"]["elongation"]
+        print(f"{'rigid prediction, planar elongation':34} {elongation['critical_stress_settled_pa']:.0f} Pa")
+    print(f"{'breakage':34} {result['breakage']}")
+    print(f"{'contacts':34} {result['contacts_initial']} -> {result['contacts_at_breakup']}")
+    for name, key in (("radius of gyration", "rg_change_relative"),
+                      ("largest semi-axis", "largest_semi_axis_change_relative"),
+                      ("smallest semi-axis", "smallest_semi_axis_change_relative")):
+        print(f"{name:34} {100 * result[key]:+.1f} %")
+    print(f"{'fragments':34} {' '.join(map(str, result['fragments']))}")
+    print(f"tables: {stem}-course.csv (Fig 7), {stem}-events.csv; frames (Fig 6): {path}")
+
+
+if __name__ == "__main__":
+    main(pathlib.Path(sys.argv[1]))
