@@ -207,7 +207,7 @@ std::vector<std::string> describe(const BreakerScene& scene, const Start& start)
   hydrodynamics.renew_far_field(frame.position);
   const auto needed = alignment_strain(hydrodynamics.turning(), scene.model.gradient);
   lines.push_back(fmt::format("strain available up to {:g} Pa: {:.3g}; needed to turn into the flow: {}", stress,
-                              available, needed ? fmt::format("{:.3g}", *needed) : "it turns for ever"));
+                              available, needed ? fmt::format("{:.3g}", *needed) : "not within 2000"));
   if (needed && available < *needed)
     lines.push_back(
         "warning: it may break before it is aligned; a slower ramp or a lower viscosity gives it more strain");

@@ -12,7 +12,6 @@ import subprocess
 import sys
 import tempfile
 
-import h5py
 import numpy
 
 HERE = pathlib.Path(__file__).resolve().parent
