@@ -11,7 +11,14 @@
 namespace crumble {
 
 // What a number is drawn for. Numbers of different purposes are independent.
-enum class Purpose : std::uint32_t { start_position = 1, brownian_force, brownian_torque, brownian_path, radius, orientation };
+enum class Purpose : std::uint32_t {
+  start_position = 1,
+  brownian_force,
+  brownian_torque,
+  brownian_path,
+  radius,
+  orientation
+};
 
 inline constexpr const char* rng_name = "Philox4x32-10 (Random123)";
 
