@@ -43,6 +43,7 @@ dense::Matrix<Scalar> congruence(const dense::ConstBlock<Scalar>& c, const Eigen
   const dense::Matrix<Scalar> C = c.template triangularView<Eigen::Lower>();
   const dense::Matrix<Scalar> half = dense::Matrix<Scalar>(C.transpose()) * D.template cast<Scalar>();
   dense::Matrix<Scalar> result(n, n);
+#pragma omp parallel for schedule(dynamic) num_threads(dense::threads_for(n))
   for (Eigen::Index j = 0; j < n; j += width) {
     const Eigen::Index rest = n - j, columns = std::min(width, rest);
     result.block(j, j, rest, columns).noalias() = half.bottomRightCorner(rest, rest) * C.block(j, j, rest, columns);
@@ -63,7 +64,10 @@ ConstrainedFactor<Scalar>::ConstrainedFactor(MobilityMatrix mobility, const Eige
         fmt::format("the mobility matrix of {} spheres is not positive definite (leading minor {} of {}): "
                     "overlapping or coincident spheres?",
                     mobility.spheres, minor, lower_.rows()));
-  dense::solve<Scalar>(c(), lower_.bottomLeftCorner(motion_, interior_));
+  constexpr int width = 256;
+#pragma omp parallel for schedule(dynamic) num_threads(dense::threads_for(lower_.rows()))
+  for (int j = 0; j < interior_; j += width)
+    dense::solve<Scalar>(c(), lower_.block(interior_, j, motion_, std::min(width, interior_ - j)));
   if (!has_near_field_) return;
   near_ = congruence<Scalar>(c(), near_field);
   near_.diagonal().array() += Scalar(1);

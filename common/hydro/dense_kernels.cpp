@@ -10,10 +10,12 @@ namespace {
 constexpr Eigen::Index tile = 192;
 }
 
+int threads_for(Eigen::Index n) { return n < threads_pay_from || omp_in_parallel() ? 1 : omp_get_max_threads(); }
+
 template <class Scalar>
 int cholesky(Block<Scalar> a) {
   const Eigen::Index n = a.rows();
-  const int threads = n < threads_pay_from || omp_in_parallel() ? 1 : omp_get_max_threads();
+  const int threads = threads_for(n);
   for (Eigen::Index k = 0; k < n; k += tile) {
     const Eigen::Index width = std::min(tile, n - k), below = n - k - width, tiles = (below + tile - 1) / tile;
     auto corner = a.block(k, k, width, width);

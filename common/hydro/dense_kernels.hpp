@@ -27,6 +27,9 @@ inline constexpr int threads_pay_from = 2000;
 extern template int cholesky<float>(Block<float>);
 extern template int cholesky<double>(Block<double>);
 
+// How many threads a problem of order n deserves here: 1 below threads_pay_from and inside parallel regions.
+int threads_for(Eigen::Index n);
+
 // B <- L^-1 B and L^-T B with the lower triangle L of a.
 template <class Scalar>
 void solve(const ConstBlock<Scalar>& a, Block<Scalar> b);

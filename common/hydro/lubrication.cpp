@@ -130,24 +130,46 @@ std::vector<std::pair<int, int>> near_pairs(const Spheres& s, double range) {
   return pairs;
 }
 
-}  // namespace
-
-PairMatrix pair_lubrication(const Vector3& r, double a_1, double a_2, PairMotion motion, double gap_floor) {
-  const double distance = r.norm(), a = (a_1 + a_2) / 2, apart = effective_distance(distance, a, gap_floor);
-  const Vector3 z = Vector3::UnitZ();
-  const PairMatrix exact = two_sphere_pair(apart * z, a_1, a_2, gap_floor), far = far_field_pair(apart * z, a_1, a_2);
+// Of a pair with its axis along z at the given distance.
+AxialBlocks blocks_at(double distance, double a_1, double a_2, PairMotion motion, double gap_floor) {
+  const Vector3 r = distance * Vector3::UnitZ();
+  const PairMatrix exact = two_sphere_pair(r, a_1, a_2, gap_floor), far = far_field_pair(r, a_1, a_2);
   AxialBlocks D{excess(exact, far, stretching), excess(exact, far, spinning), excess(exact, far, shearing),
                 excess(exact, far, straining)};
-  if (motion == PairMotion::relative) take_out_rigid_motion(D, apart, a);
+  if (motion == PairMotion::relative) take_out_rigid_motion(D, distance, (a_1 + a_2) / 2);
+  return D;
+}
+
+PairMatrix placed(AxialBlocks D, const Vector3& r, double distance, double apart, double a) {
   if (apart > distance) continue_to_floor(D, (apart - distance) / 2);
   return two_sphere_pair(r / distance, a, scalars(D, 0, a), scalars(D, 1, a));
 }
 
-Lubrication::Lubrication(const Spheres& spheres, double range, PairMotion motion, double gap_floor) {
-  for (const auto& [i, j] : near_pairs(spheres, range))
-    pairs_.push_back({i, j,
-                      pair_lubrication(spheres.position[j] - spheres.position[i], spheres.radius[i], spheres.radius[j],
-                                       motion, gap_floor)});
+}  // namespace
+
+PairMatrix pair_lubrication(const Vector3& r, double a_1, double a_2, PairMotion motion, double gap_floor) {
+  const double distance = r.norm(), a = (a_1 + a_2) / 2, apart = effective_distance(distance, a, gap_floor);
+  return placed(blocks_at(apart, a_1, a_2, motion, gap_floor), r, distance, apart, a);
+}
+
+Lubrication::Lubrication(const Spheres& s, double range, PairMotion motion, double gap_floor) {
+  // Most near pairs of a dried cluster touch: at the floor all of the same radii have the same blocks.
+  double a_1 = 0, a_2 = 0;
+  AxialBlocks at_floor;
+  for (const auto& [i, j] : near_pairs(s, range)) {
+    const Vector3 r = s.position[j] - s.position[i];
+    const double distance = r.norm(), a = (s.radius[i] + s.radius[j]) / 2;
+    const double apart = effective_distance(distance, a, gap_floor);
+    if (apart == distance) {
+      pairs_.push_back({i, j, pair_lubrication(r, s.radius[i], s.radius[j], motion, gap_floor)});
+      continue;
+    }
+    if (a_1 != s.radius[i] || a_2 != s.radius[j]) {
+      a_1 = s.radius[i], a_2 = s.radius[j];
+      at_floor = blocks_at(apart, a_1, a_2, motion, gap_floor);
+    }
+    pairs_.push_back({i, j, placed(at_floor, r, distance, apart, a)});
+  }
 }
 
 void Lubrication::add(const Eigen::MatrixXd& w_motion, const Eigen::MatrixXd& w_strain, Eigen::MatrixXd& q_motion,

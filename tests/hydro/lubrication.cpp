@@ -79,6 +79,21 @@ TEST(Lubrication, ProjectionKeepsWhatIsOrthogonalToRigidMotion) {
   EXPECT_LT((pair_lubrication(r, 1, 1, PairMotion::relative) - expected).norm(), 1e-12 * expected.norm());
 }
 
+// Pairs at the floor share their blocks: same radii, both orders of radii, overlaps of different depth.
+TEST(Lubrication, OfAClusterIsThatOfItsPairs) {
+  Spheres s = unit_spheres({{0, 0, 0}, {2, 0, 0}, {2, 1.999, 0}, {0, 1.9999, 0}, {0, 0, 2.5}, {3, 1, 2.2}});
+  s.radius[4] = s.radius[5] = 1.5;
+  for (const PairMotion motion : {PairMotion::all, PairMotion::relative}) {
+    const Lubrication sum(s, 2.5, motion);
+    EXPECT_EQ(sum.pairs().size(), 8u);
+    for (const LubricationPair& p : sum.pairs()) {
+      const PairMatrix alone =
+          pair_lubrication(s.position[p.j] - s.position[p.i], s.radius[p.i], s.radius[p.j], motion);
+      EXPECT_LT((p.resistance - alone).norm(), 1e-12 * alone.norm()) << p.i << " " << p.j;
+    }
+  }
+}
+
 // A pair at the floor feels the same forces in ambient strain whether it just touches or overlaps a little.
 TEST(Lubrication, IsContinuousThroughContactAndFiniteInStrain) {
   for (const PairMotion motion : {PairMotion::all, PairMotion::relative}) {
