@@ -173,7 +173,7 @@ void ladder(const std::string& folder) {
 void cut_off(const std::string& folder) {
   Table table(folder, "cut_off",
               "Relative lubrication: error in % of N_max against multipoles (L = 4), by the pairs it takes.",
-              {"pairs closer than, a", "compact 85", "hollow 115"});
+              {"pairs closer than (a)", "compact 85", "hollow 115"});
   const DriedCluster compact = dried_cluster("compact_85"), hollow = dried_cluster("hollow_115");
   omp_set_num_threads(omp_get_num_procs());
   const double exact_compact = numbers(compact, of_order(4)).tension,
@@ -186,7 +186,7 @@ void cut_off(const std::string& folder) {
   for (const double range : {2.01, 2.1, 2.25, 2.5, 3.0, 4.0, 6.0})
     row(number(range), on(Rung::fts_relative_lubrication, range));
   for (const double range : {2.01, 2.5, 4.0})
-    row(fmt::format("as printed, {}", number(range)), on(Rung::fts_lubrication, range));
+    row(fmt::format("as printed: {}", number(range)), on(Rung::fts_lubrication, range));
 }
 
 Spheres scaled_distances(Spheres s, double factor) {
@@ -201,7 +201,7 @@ void lagged(const std::string& folder) {
       "One mobility solve with ambient flow and relative lubrication, one thread: fresh, and with the factor of "
       "a configuration\nfrom which every sphere has moved by so much; error of the velocities against a dense "
       "float64 solve.",
-      {"factor", "spheres", "fresh ms", "moved, a", "lagged ms", "iterations", "products", "error"});
+      {"factor", "spheres", "fresh ms", "moved (a)", "lagged ms", "iterations", "products", "error"});
   const HydroModel model = on(Rung::fts_relative_lubrication);
   const LinearFlow flow = {Vector3(0.1, 0.2, 0.3), simple_shear(1).gradient};
   // Contacts overlap by 1.88e-3 a as dried ones do.
