@@ -36,7 +36,7 @@ inline Ran run_in(const Folder& folder, const std::string& command) {
 }
 
 inline Ran agglomerate(const Folder& folder, const std::string& arguments) {
-  return run_in(folder, CRUMBLE_AGGLOMERATE " " + arguments);
+  return run_in(folder, "'" CRUMBLE_AGGLOMERATE "' " + arguments);
 }
 
 }  // namespace crumble::test
