@@ -12,7 +12,7 @@ namespace crumble::test {
 namespace {
 
 nlohmann::json read_by_vtk(const Folder& folder, const std::string& file) {
-  const Ran ran = run_in(folder, "/usr/bin/python3 " CRUMBLE_SOURCE_DIR "/tests/tool/read_vtkhdf.py " + file);
+  const Ran ran = run_in(folder, "/usr/bin/python3 '" CRUMBLE_SOURCE_DIR "/tests/tool/read_vtkhdf.py' " + file);
   EXPECT_EQ(ran.code, 0) << ran.err;
   return nlohmann::json::parse(ran.out, nullptr, false);
 }
