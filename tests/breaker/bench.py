@@ -5,27 +5,17 @@
 Times are CPU seconds of one core. The error is that of the critical stress against the finest run of the same ramp.
 """
 import json
-import math
 import os
 import pathlib
 import subprocess
 import sys
 import tempfile
 
-import numpy
+from coil import coil
 
 HERE = pathlib.Path(__file__).resolve().parent
 SCENE = HERE.parents[1] / "pipeline" / "scenes" / "breakup.toml"
 PAPER = 5000  # Pa/s at 1 Pa s
-
-
-def coil(count):
-    turn = [[250 * math.cos(0.75 * k), 60 * k, 250 * math.sin(0.75 * k)] for k in range(count)]
-    centres = [numpy.array(turn[0])]
-    for k in range(1, count):
-        step = numpy.array(turn[k]) - numpy.array(turn[k - 1])
-        centres.append(centres[-1] + 200 * step / numpy.linalg.norm(step))
-    return centres
 
 
 def dried(name):

@@ -3,39 +3,22 @@
     program.py BREAKER AGGLOMERATE SCENE.toml
 """
 import json
-import math
 import pathlib
 import shutil
 import signal
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
 
 import h5py
 import numpy
 
+from coil import coil
+from program_runs import contents, interrupt, seconds
+
 BREAKER, AGGLOMERATE, SCENE = (str(pathlib.Path(p).resolve()) for p in sys.argv[1:4])
 DOUBLET = [[0, 0, 0], [200, 0, 0]]
-
-
-def helix(count):
-    """A coiled chain: it turns into the flow, straightens and breaks."""
-    turn = [[250 * math.cos(0.75 * k), 60 * k, 250 * math.sin(0.75 * k)] for k in range(count)]
-    centres = [numpy.array(turn[0])]
-    for k in range(1, count):
-        step = numpy.array(turn[k]) - numpy.array(turn[k - 1])
-        centres.append(centres[-1] + 200 * step / numpy.linalg.norm(step))
-    return centres
-
-
-def contents(path):
-    """All arrays of a file by path, without the provenance (time of creation, command)."""
-    found = {}
-    with h5py.File(path) as file:
-        file.visititems(lambda name, item: found.update({name: item[()]}) if isinstance(item, h5py.Dataset) else None)
-    return found
 
 
 class Program(unittest.TestCase):
@@ -100,34 +83,26 @@ class Program(unittest.TestCase):
         self.assertIsNone(report["errors"]["critical_stress_relative"]["value"])
 
     def test_viscosity_changes_nothing_when_the_protocol_goes_with_it(self):
-        start = self.agglomerate(helix(5))
+        start = self.agglomerate(coil(5))
         first, _, _ = self.breakup(start, "error.estimate=false")
         second, _, _ = self.breakup(start, "error.estimate=false", "fluid.viscosity=1e-3", output="thin.h5")
         ratio = second["results"]["critical_stress_pa"] / first["results"]["critical_stress_pa"]
         self.assertAlmostEqual(ratio, 1, delta=1e-5)
 
     def test_interrupted_run_goes_on_to_the_same_bits(self):
-        start = self.agglomerate(helix(16))
+        start = self.agglomerate(coil(16))
         settings = ("error.estimate=false", "integrator.tolerance=0.002", "protocol.stages=rest 0.1; ramp 5000",
                     "breakup.until_stable=true", "breakup.stable_strain=5")
-        _, _, whole = self.breakup(start, *settings, output="whole.h5")
-        cut = self.folder / "cut.h5"
-        interrupted = 0
-        for number in (signal.SIGINT, signal.SIGTERM):
-            process = subprocess.Popen([BREAKER, *map(str, self.command(start, *settings, output="cut.h5"))],
-                                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-            time.sleep(0.4)
-            process.send_signal(number)
-            code = process.wait(timeout=60)
-            self.assertIn(code, (0, 128 + number))
-            if code:
-                interrupted += 1
-                self.assertTrue(pathlib.Path(f"{cut}.checkpoint").exists() and not cut.exists())
-        self.assertTrue(interrupted, "the run ended before it could be interrupted")
-        other = self.run_it(*self.command(start, *settings[:1], output="cut.h5"))
+        whole, cut = self.folder / "whole.h5", self.folder / "cut.h5"
+        duration = seconds([BREAKER, *self.command(start, *settings, output=whole.name)])
+        for number, part in ((signal.SIGINT, 0.15), (signal.SIGTERM, 0)):
+            code = interrupt([BREAKER, *self.command(start, *settings, output=cut.name)], number, part * duration)
+            self.assertEqual(code, 128 + number)
+            self.assertTrue(pathlib.Path(f"{cut}.checkpoint").exists() and not cut.exists())
+        other = self.run_it(*self.command(start, *settings[:1], output=cut.name))
         self.assertEqual(other.returncode, 2)
         self.assertIn("another scene", other.stderr)
-        self.breakup(start, *settings, output="cut.h5")
+        self.breakup(start, *settings, output=cut.name)
         self.assertFalse(pathlib.Path(f"{cut}.checkpoint").exists())
         a, b = contents(whole), contents(cut)
         self.assertEqual(a.keys(), b.keys())
@@ -135,7 +110,7 @@ class Program(unittest.TestCase):
             self.assertTrue(numpy.array_equal(a[name], b[name]), name)
 
     def test_fragments_break_until_they_are_stable(self):
-        report, _, out = self.breakup(self.agglomerate(helix(12)), "breakup.until_stable=true", "error.estimate=false")
+        report, _, out = self.breakup(self.agglomerate(coil(12)), "breakup.until_stable=true", "error.estimate=false")
         found = report["results"]
         self.assertEqual(sum(found["fragments"]), 12)
         self.assertGreaterEqual(len(found["fragments"]), 2)
@@ -145,7 +120,7 @@ class Program(unittest.TestCase):
             self.assertEqual(sizes, found["fragments"])
 
     def test_largest_fragment_goes_on(self):
-        _, _, out = self.breakup(self.agglomerate(helix(8)), "error.estimate=false")
+        _, _, out = self.breakup(self.agglomerate(coil(8)), "error.estimate=false")
         text = pathlib.Path(SCENE).read_text().replace("radius = 100e-9", "")
         scene = self.folder / "more.toml"
         scene.write_text(text)
@@ -175,7 +150,7 @@ class Program(unittest.TestCase):
         self.assertIn("nothing broke", run.stdout)
 
     def test_rest_leaves_a_closed_agglomerate_as_it_is(self):
-        report, run, out = self.breakup(self.agglomerate(helix(6)), "flow.kind=quiescent", "protocol.stages=rest 1")
+        report, run, out = self.breakup(self.agglomerate(coil(6)), "flow.kind=quiescent", "protocol.stages=rest 1")
         self.assertIn("until the end of the protocol", run.stdout)
         with h5py.File(out) as file:
             x = file["particles/all/position/value"][:]
@@ -183,12 +158,12 @@ class Program(unittest.TestCase):
             self.assertLess(abs(x[-1] - x[0]).max(), 1e-6)
 
     def test_a_ramp_ten_thousand_times_too_fast_still_breaks(self):
-        report, run, _ = self.breakup(self.agglomerate(helix(6)), "protocol.stages=ramp 5e7", "error.estimate=false")
+        report, run, _ = self.breakup(self.agglomerate(coil(6)), "protocol.stages=ramp 5e7", "error.estimate=false")
         self.assertIn("may break before it is aligned", run.stderr)
         self.assertGreater(report["results"]["critical_stress_pa"], 1000)
 
     def test_flows(self):
-        start = self.agglomerate(helix(4))
+        start = self.agglomerate(coil(4))
         report, _, out = self.breakup(start, "flow.kind=uniaxial", "error.estimate=false")
         self.assertGreater(report["results"]["critical_stress_pa"], 1000)
         with h5py.File(out) as file:
