@@ -6,8 +6,10 @@
 #include "common/io/errors.hpp"
 #include "common/io/file_errors.hpp"
 #include "dryer/drying_checkpoint.hpp"
+#include "tests/temporary_folder.hpp"
 
 using namespace crumble;
+using crumble::test::Folder;
 
 namespace {
 
@@ -21,14 +23,6 @@ DryingScene small_scene(const std::string& kind) {
                            method + "\"\n";
   return drying_scene(Scene::parse(text, "small.toml", drying_parameters()));
 }
-
-struct Folder {
-  std::filesystem::path path =
-      std::filesystem::temp_directory_path() / ("crumble-checkpoint-" + std::to_string(::getpid()));
-  Folder() { std::filesystem::create_directories(path); }
-  ~Folder() { std::filesystem::remove_all(path); }
-  std::string file(const std::string& name) const { return (path / name).string(); }
-};
 
 class Restart : public ::testing::TestWithParam<std::string> {};
 

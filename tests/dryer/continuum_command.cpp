@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/io/errors.hpp"
+#include "tests/temporary_folder.hpp"
 
 using namespace crumble;
 
@@ -16,14 +17,7 @@ namespace {
 
 class ContinuumCommand : public ::testing::Test {
  protected:
-  void SetUp() override {
-    std::string pattern = ::testing::TempDir() + "continuum.XXXXXX";
-    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
-    folder_ = pattern;
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  std::string file(const std::string& name) const { return (folder_ / name).string(); }
+  std::string file(const std::string& name) const { return folder_.file(name); }
 
   static int run(std::vector<const char*> words) {
     words.insert(words.begin(), "dryer continuum");
@@ -38,7 +32,7 @@ class ContinuumCommand : public ::testing::Test {
     return "(no complaint)";
   }
 
-  std::filesystem::path folder_;
+  const test::Folder folder_;
 };
 
 TEST_F(ContinuumCommand, writes_a_row_for_each_radius_and_time) {
@@ -73,7 +67,7 @@ TEST_F(ContinuumCommand, says_what_is_wrong_with_its_arguments) {
   EXPECT_PRED2(has, with("1", "1", out), "theta must be at least 0 and below 1; it is 1");
   EXPECT_PRED2(has, with("1", "0.4,0.2", out), "theta must increase; 0.2 stands behind 0.4");
   EXPECT_PRED2(has, with("1", "0.2", nowhere), "there is no folder");
-  EXPECT_PRED2(has, with("1", "0.2", folder_.string()), "this is a folder");
+  EXPECT_PRED2(has, with("1", "0.2", folder_.path().string()), "this is a folder");
   EXPECT_PRED2(has, complaint({"--pecle", "1"}), "--pecle");
   EXPECT_FALSE(std::filesystem::exists(out));
 }

@@ -2,31 +2,13 @@
 #pragma once
 
 #include <cmath>
-#include <filesystem>
 #include <random>
 #include <string>
 
 #include "common/io/agglomerate_writer.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace crumble::test {
-
-// A folder of its own for each test, gone with it.
-class Folder {
- public:
-  Folder() {
-    std::string name = (std::filesystem::temp_directory_path() / "crumble_io_XXXXXX").string();
-    if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
-    path_ = name;
-  }
-  ~Folder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
-};
 
 inline Particles sample_particles(std::size_t n) {
   Particles particles;

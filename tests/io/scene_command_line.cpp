@@ -5,6 +5,7 @@
 
 #include "common/io/command_line.hpp"
 #include "tests/io/scene_table.hpp"
+#include "tests/temporary_folder.hpp"
 
 using namespace crumble;
 
@@ -106,10 +107,10 @@ TEST(CommandLine, each_misuse_has_its_own_message) {
 }
 
 TEST(CommandLine, an_output_may_not_overwrite_an_input) {
-  const std::string scene = (std::filesystem::temp_directory_path() / "crumble_overwritten.toml").string();
+  const test::Folder folder;
+  const std::string scene = folder.file("overwritten.toml");
   std::ofstream(scene) << "x";
-  const std::string same = scene.substr(0, scene.rfind('/')) + "/./crumble_overwritten.toml";
+  const std::string same = scene.substr(0, scene.rfind('/')) + "/./overwritten.toml";
   EXPECT_EQ(first_line_of_refusal({scene.c_str(), "-o", same.c_str()}),
             "dryer: -o " + same + ": would overwrite the input '" + scene + "'");
-  std::filesystem::remove(scene);
 }

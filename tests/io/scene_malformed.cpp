@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "tests/io/scene_table.hpp"
+#include "tests/temporary_folder.hpp"
 
 using namespace crumble;
 using crumble::testing::good_scene;
@@ -159,10 +160,10 @@ TEST(SceneFile, that_is_a_folder_is_named) {
 }
 
 TEST(SceneFile, is_read_as_it_stands) {
-  const auto file = std::filesystem::temp_directory_path() / ("crumble_scene_" + std::to_string(::getpid()) + ".toml");
+  const test::Folder folder;
+  const auto file = folder / "scene.toml";
   std::ofstream(file, std::ios::binary) << good_scene;
   const Scene scene = Scene::read(file.string(), table());
-  std::filesystem::remove(file);
   EXPECT_EQ(scene.given(), good_scene);
   EXPECT_EQ(scene.where("droplet.radius"), file.string() + ":6");
 }

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/io/report.hpp"
+#include "tests/temporary_folder.hpp"
 
 using namespace crumble;
 
@@ -72,13 +73,12 @@ TEST(Report, refuses_what_is_not_finite) {
 }
 
 TEST(Report, is_written_whole_or_not_at_all) {
-  const auto folder = std::filesystem::temp_directory_path() / "crumble_report";
-  std::filesystem::create_directories(folder);
-  const std::string file = (folder / "r.json").string();
+  const test::Folder folder;
+  const std::string file = folder.file("r.json");
   filled().write(file);
   std::ifstream in(file);
   EXPECT_EQ(nlohmann::json::parse(in).at("steps"), 1234);
   EXPECT_FALSE(std::filesystem::exists(file + ".tmp"));
-  std::filesystem::remove_all(folder);
+  std::filesystem::remove_all(folder.path());
   EXPECT_THROW(filled().write(file), std::runtime_error);
 }
