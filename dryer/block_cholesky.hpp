@@ -11,8 +11,6 @@
 
 namespace crumble {
 
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
-
 struct BlockPair {
   std::int32_t i, j;  // i != j, blocks counted from 0
 };

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/agglomerate/bond.hpp"
-#include "common/contact/plastic_spring.hpp"
 #include "dryer/drag.hpp"
 
 namespace crumble {
@@ -33,35 +31,11 @@ Vector3 ImplicitStep::rotation(std::int32_t particle) const {
   return increment_[slot_[particle]].tail<3>() / state_.particles.radius[particle];
 }
 
-// What a bond looks like after the increments: trial displacements of its springs before yielding.
-struct ImplicitStep::BondState {
-  Vector3 separation;
-  double distance, gap;
-  Vector3 sliding, rolling;
-  double twisting;
-  double l_i, l_j, a_i, a_j;
-};
-
-ImplicitStep::BondState ImplicitStep::bond_state(const Contact& bond, const std::vector<Vector6>& q) const {
+BondIncrement ImplicitStep::moved(const Contact& bond, const std::vector<Vector6>& q) const {
   const auto& x = state_.state.position;
+  // Rotations are stored as lengths: times the radius.
   const double a_i = state_.particles.radius[bond.i], a_j = state_.particles.radius[bond.j];
-  const Vector6 &q_i = q[slot_[bond.i]], &q_j = q[slot_[bond.j]];
-  const Vector3& n = bond.normal;
-  const Vector3 dx = q_j.head<3>() - q_i.head<3>();
-  const Vector3 W_i = q_i.tail<3>() / a_i, W_j = q_j.tail<3>() / a_j, W = W_j - W_i;
-  BondState s;
-  s.a_i = a_i;
-  s.a_j = a_j;
-  s.l_i = lever_arm(bond, a_i, a_j);
-  s.l_j = lever_arm(bond, a_j, a_i);
-  s.separation = x[bond.j] - x[bond.i] + dx;
-  s.distance = s.separation.norm();
-  s.gap = s.distance - a_i - a_j;
-  s.sliding = bond.sliding + dx - n.dot(dx) * n + n.cross(s.l_i * W_i + s.l_j * W_j);
-  const double twist = n.dot(W);
-  s.rolling = bond.rolling + W - twist * n;
-  s.twisting = bond.twisting + twist;
-  return s;
+  return {bond, laws_(bond.i, bond.j), {a_i, a_j, a_i, a_j}, x[bond.j] - x[bond.i], q[slot_[bond.i]], q[slot_[bond.j]]};
 }
 
 double ImplicitStep::surface_energy(std::size_t k, const Vector3& translation) const {
@@ -94,13 +68,7 @@ double ImplicitStep::energy(const std::vector<Vector6>& q) const {
     total += (zeta * q[k].head<3>().squaredNorm() + zeta_r * q[k].tail<3>().squaredNorm()) / (2 * dt_);
     total += surface_energy(k, q[k].head<3>());
   }
-  for (const Contact& bond : state_.state.contacts) {
-    const BondLaw& law = laws_(bond.i, bond.j);
-    const BondState s = bond_state(bond, q);
-    total += law.normal_energy(s.gap) + capped_energy(s.sliding.norm(), law.k_s, law.sliding_limit(bond.normal_force)) +
-             capped_energy(s.rolling.norm(), law.k_r, law.M_r_crit) +
-             capped_energy(std::abs(s.twisting), law.k_t, law.M_t_crit);
-  }
+  for (const Contact& bond : state_.state.contacts) total += moved(bond, q).energy();
   return total;
 }
 
@@ -134,67 +102,16 @@ void ImplicitStep::linearise_particle(std::size_t k, const Vector6& q) {
   matrix_.add_diagonal(static_cast<std::int32_t>(k), H);
 }
 
-namespace {
-
-// Second derivative of capped_energy(|xi|) in the plane of xi: k P below the limit, (F/|xi|)(P - uu) beyond.
-Matrix3 spring_matrix(const Vector3& xi, const Vector3& n, double stiffness, double limit, Vector3& force) {
-  const double length = xi.norm();
-  const Matrix3 P = Matrix3::Identity() - n * n.transpose();
-  if (stiffness * length <= limit) {
-    force = stiffness * xi;
-    return stiffness * P;
-  }
-  const Vector3 u = xi / length;
-  force = limit * u;
-  return limit / length * (P - u * u.transpose());
-}
-
-Matrix3 cross_matrix(const Vector3& n) {
-  Matrix3 C;
-  C << 0, -n.z(), n.y(), n.z(), 0, -n.x(), -n.y(), n.x(), 0;
-  return C;
-}
-
-}  // namespace
-
 void ImplicitStep::linearise_bond(std::size_t b, const std::vector<Vector6>& q) {
   const Contact& bond = state_.state.contacts[b];
-  const BondLaw& law = laws_(bond.i, bond.j);
-  const BondState s = bond_state(bond, q);
-  const Vector3 &n0 = bond.normal, n = s.separation / s.distance;
-
-  const auto [N, k_n] = law.normal(s.gap);
-  Vector3 F_s, M_r;
-  const Matrix3 D_s = spring_matrix(s.sliding, n0, law.k_s, law.sliding_limit(bond.normal_force), F_s);
-  const Matrix3 D_r = spring_matrix(s.rolling, n0, law.k_r, law.M_r_crit, M_r);
-  const bool twisted = law.k_t * std::abs(s.twisting) > law.M_t_crit;
-  const double M_t = twisted ? std::copysign(law.M_t_crit, s.twisting) : law.k_t * s.twisting;
-
-  // Relative displacement dx_j - dx_i of the gap, and u = P(dx_j - dx_i) + n0 x (l_i W_i + l_j W_j) of the sliding.
-  const bool lost = s.gap > law.lost_gap();
-  const double tension = lost ? 0 : N;
-  const Matrix3 K = (lost ? 0 : k_n) * n * n.transpose() +
-                    std::max(tension, 0.0) / s.distance * (Matrix3::Identity() - n * n.transpose()) + D_s;
-  const Matrix3 C = cross_matrix(n0);
-  const double c_i = s.l_i / s.a_i, c_j = s.l_j / s.a_j;  // rotations are stored as lengths
-  const Matrix3 DC = D_s * C, CDC = C.transpose() * DC;
-  const Matrix3 bend = D_r + (twisted ? 0 : law.k_t) * n0 * n0.transpose();
-
-  Matrix6 H_ii, H_jj, H_ij;
-  H_ii << K, -c_i * DC, (-c_i * DC).transpose(), c_i * c_i * CDC + bend / (s.a_i * s.a_i);
-  H_jj << K, c_j * DC, (c_j * DC).transpose(), c_j * c_j * CDC + bend / (s.a_j * s.a_j);
-  H_ij << -K, -c_j * DC, c_i * DC.transpose(), c_i * c_j * CDC - bend / (s.a_i * s.a_j);
+  const BondIncrement increment = moved(bond, q);
   const std::int32_t i = slot_[bond.i], j = slot_[bond.j];
-  matrix_.add_diagonal(i, H_ii);
-  matrix_.add_diagonal(j, H_jj);
-  matrix_.add_pair(b, H_ij);
-
-  const Vector3 pull = tension * n + F_s;
-  const Vector3 moment = C.transpose() * F_s, turn = M_r + M_t * n0;
-  gradient_[i].head<3>() -= pull;
-  gradient_[j].head<3>() += pull;
-  gradient_[i].tail<3>() += c_i * moment - turn / s.a_i;
-  gradient_[j].tail<3>() += c_j * moment + turn / s.a_j;
+  increment.add_gradient(gradient_[i], gradient_[j]);
+  Matrix6 K_ii, K_ij, K_jj;
+  increment.stiffness(K_ii, K_ij, K_jj);
+  matrix_.add_diagonal(i, K_ii);
+  matrix_.add_diagonal(j, K_jj);
+  matrix_.add_pair(b, K_ij);
 }
 
 void ImplicitStep::linearise(const std::vector<Vector6>& q) {

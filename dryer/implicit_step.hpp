@@ -1,7 +1,7 @@
 // One implicit step of overdamped motion: where drag, capillary force and contacts balance at the end of the step.
 #pragma once
 
-#include "common/agglomerate/agglomerate.hpp"
+#include "common/agglomerate/bond_increment.hpp"
 #include "common/contact/bond_laws.hpp"
 #include "dryer/block_cholesky.hpp"
 #include "dryer/model.hpp"
@@ -48,8 +48,7 @@ class ImplicitStep {
   void linearise(const std::vector<Vector6>& q);
   void linearise_particle(std::size_t k, const Vector6& q);
   void linearise_bond(std::size_t b, const std::vector<Vector6>& q);
-  struct BondState;
-  BondState bond_state(const Contact& bond, const std::vector<Vector6>& q) const;
+  BondIncrement moved(const Contact& bond, const std::vector<Vector6>& q) const;
 
   const DryingModel& model_;
   const Agglomerate& state_;

@@ -9,6 +9,7 @@ namespace crumble {
 
 using Vector3 = Eigen::Vector3d;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Quaternion = Eigen::Quaterniond;
 
 // One bonded pair with its history. SI units; i < j; the normal points from i to j; tension is positive and

@@ -5,9 +5,6 @@
 
 namespace crumble {
 
-using Vector6 = Eigen::Matrix<double, 6, 1>;
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
-
 // Compression across the normal softens a bond: the second derivatives with that part or, positive semi-definite,
 // without.
 enum class Curvature { full, convex };
