@@ -7,7 +7,7 @@
 
 namespace crumble {
 
-// N^2 ordered pairs in float64, vectorised over the sources, OpenMP over the receivers: a few nanoseconds a pair, and
+// N^2 ordered pairs in float64, a register of receivers at a time, OpenMP over these: some nanoseconds a pair, and
 // memory of order N. The summation order is fixed: results do not depend on the number of threads.
 class FarFieldSum {
  public:
@@ -19,9 +19,9 @@ class FarFieldSum {
   void apply(const double* q, double* w) const;
 
  private:
-  int n_ = 0, padded_ = 0;
-  std::vector<double> x_, y_, z_, radius2_,  // radii squared over 6
-      self_force_, self_torque_, self_stresslet_;
+  int n_ = 0;
+  std::vector<double> x_, y_, z_, radius2_;  // radii squared over 6
+  std::vector<SelfMobility> self_;
 };
 
 }  // namespace crumble
