@@ -37,9 +37,7 @@ void DenseHydrodynamics::solve_resistance(const Eigen::MatrixXd& w_motion, const
 void DenseHydrodynamics::solve_mobility(const Eigen::MatrixXd& q_motion, const Eigen::MatrixXd& w_strain,
                                         Eigen::MatrixXd& w_motion, Eigen::MatrixXd& q_strain) const {
   // Lubrication by the known strain counts as a known load; that by the velocities is in the factor.
-  const Eigen::MatrixXd at_rest = Eigen::MatrixXd::Zero(6 * size(), q_motion.cols());
-  Eigen::MatrixXd by_strain = at_rest, stresslet = Eigen::MatrixXd::Zero(5 * size(), q_motion.cols());
-  lubrication_.add(at_rest, w_strain, by_strain, stresslet);
+  Eigen::MatrixXd by_strain = lubrication_.motion_loads_of_strain(size(), w_strain);
   Eigen::MatrixXd x = interior_rows(w_strain);
   x.bottomRows(factor_.motion()) = q_motion - by_strain;
   factor_.solve_mobility(x, &w_motion);

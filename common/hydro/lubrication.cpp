@@ -187,6 +187,13 @@ void Lubrication::add(const Eigen::MatrixXd& w_motion, const Eigen::MatrixXd& w_
     }
 }
 
+Eigen::MatrixXd Lubrication::motion_loads_of_strain(int spheres, const Eigen::MatrixXd& w_strain) const {
+  const Eigen::MatrixXd at_rest = Eigen::MatrixXd::Zero(6 * spheres, w_strain.cols());
+  Eigen::MatrixXd loads = at_rest, stresslet = Eigen::MatrixXd::Zero(5 * spheres, w_strain.cols());
+  add(at_rest, w_strain, loads, stresslet);
+  return loads;
+}
+
 Eigen::SparseMatrix<double> Lubrication::motion_resistance(int spheres) const {
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(pairs_.size() * 144);

@@ -46,6 +46,9 @@ class Lubrication {
   void add(const Eigen::MatrixXd& w_motion, const Eigen::MatrixXd& w_strain, Eigen::MatrixXd& q_motion,
            Eigen::MatrixXd& q_strain) const;
 
+  // What D of the strain alone loads the motion with, six-vectors.
+  Eigen::MatrixXd motion_loads_of_strain(int spheres, const Eigen::MatrixXd& w_strain) const;
+
   // Its motion-motion part, 6N x 6N, both triangles.
   Eigen::SparseMatrix<double> motion_resistance(int spheres) const;
 

@@ -56,33 +56,23 @@ struct MatrixFreeHydrodynamics::NearField {
 
 MatrixFreeHydrodynamics::MatrixFreeHydrodynamics(const Spheres& spheres, double viscosity, const HydroModel& model,
                                                  const MatrixFreeSettings& settings)
-    : Hydrodynamics(spheres, viscosity),
-      settings_(settings),
-      sum_(reduced()),
-      lubrication_(lubrication(reduced(), model)) {
-  if (model.rung == Rung::multipole)
-    throw std::invalid_argument("hydrodynamics without a matrix is for the far-field rungs, not for multipoles");
-}
+    : IterativeHydrodynamics(spheres, viscosity, model), settings_(settings) {}
 
 MatrixFreeHydrodynamics::~MatrixFreeHydrodynamics() = default;
 
-Eigen::VectorXd MatrixFreeHydrodynamics::product(const Eigen::VectorXd& f) const {
-  Eigen::VectorXd w(f.size());
-  sum_.apply(f.data(), w.data());
-  return w;
+void MatrixFreeHydrodynamics::solved(Eigen::Index column, Eigen::Index columns) const {
+  most_iterations_ = column == 0 ? iterations_ : std::max(most_iterations_, iterations_);
+  if (settings_.heard) settings_.heard(static_cast<int>(column), static_cast<int>(columns), iterations_);
 }
 
-void MatrixFreeHydrodynamics::heard(Eigen::Index column, Eigen::Index columns, int iterations) const {
-  if (settings_.heard) settings_.heard(static_cast<int>(column), static_cast<int>(columns), iterations);
-}
-
-Eigen::VectorXd MatrixFreeHydrodynamics::conjugate_gradients(const Eigen::VectorXd& w) const {
+Eigen::VectorXd MatrixFreeHydrodynamics::solve_far_field(const Operator& mobility, const Eigen::VectorXd& w) const {
+  if (!inverse_) inverse_ = std::make_unique<SparseInverse>(reduced(), settings_.neighbours);
   iterations_ = 0;
   Eigen::VectorXd q = Eigen::VectorXd::Zero(w.size()), r = w, z = inverse_->apply(r), p = z;
   double rho = r.dot(z);
   const double goal = settings_.tolerance * settings_.tolerance * rho;
   for (; rho > goal && iterations_ < settings_.limit; ++iterations_) {
-    const Eigen::VectorXd Mp = product(p);
+    const Eigen::VectorXd Mp = mobility(p);
     const double alpha = rho / p.dot(Mp);
     q += alpha * p;
     const Eigen::VectorXd before = r;
@@ -100,59 +90,15 @@ Eigen::VectorXd MatrixFreeHydrodynamics::conjugate_gradients(const Eigen::Vector
   return q;
 }
 
-void MatrixFreeHydrodynamics::solve_resistance(const Eigen::MatrixXd& w_motion, const Eigen::MatrixXd& w_strain,
-                                               Eigen::MatrixXd& q_motion, Eigen::MatrixXd& q_strain) const {
-  const int n = size();
-  if (!inverse_) inverse_ = std::make_unique<SparseInverse>(reduced(), settings_.neighbours);
-  q_motion.resize(6 * n, w_motion.cols());
-  q_strain.resize(5 * n, w_motion.cols());
-  int most = 0;
-  for (Eigen::Index c = 0; c < w_motion.cols(); ++c) {
-    Eigen::VectorXd w(11 * n);
-    w << w_strain.col(c), w_motion.col(c);
-    const Eigen::VectorXd q = conjugate_gradients(w);
-    q_strain.col(c) = q.head(5 * n);
-    q_motion.col(c) = q.tail(6 * n);
-    most = std::max(most, iterations_);
-    heard(c, w_motion.cols(), iterations_);
-  }
-  iterations_ = most;
-  lubrication_.add(w_motion, w_strain, q_motion, q_strain);
-}
-
-void MatrixFreeHydrodynamics::solve_mobility(const Eigen::MatrixXd& q_motion, const Eigen::MatrixXd& w_strain,
-                                             Eigen::MatrixXd& w_motion, Eigen::MatrixXd& q_strain) const {
-  const int n = size();
-  if (!near_) near_ = std::make_unique<NearField>(reduced(), lubrication_);
-  const Eigen::MatrixXd still = Eigen::MatrixXd::Zero(6 * n, q_motion.cols());
-  Eigen::MatrixXd by_strain = still, stresslet = Eigen::MatrixXd::Zero(5 * n, q_motion.cols());
-  lubrication_.add(still, w_strain, by_strain, stresslet);
-  w_motion.resize(6 * n, q_motion.cols());
-  q_strain.resize(5 * n, q_motion.cols());
-  const auto apply = [&](const Eigen::VectorXd& f) {
-    Eigen::VectorXd w = product(f);
-    const Eigen::MatrixXd u = w.tail(6 * n), at_rest = Eigen::MatrixXd::Zero(5 * n, 1);
-    Eigen::MatrixXd loads = f.tail(6 * n), unused = at_rest;
-    lubrication_.add(u, at_rest, loads, unused);
-    w.tail(6 * n) = loads;
-    return w;
-  };
-  int most = 0;
-  for (Eigen::Index c = 0; c < q_motion.cols(); ++c) {
-    Eigen::VectorXd b(11 * n);
-    b << w_strain.col(c), q_motion.col(c) - by_strain.col(c);
-    const KrylovResult result = gmres(
-        apply, [&](const Eigen::VectorXd& r) { return near_->apply(r); }, b, settings_.tolerance, settings_.limit);
-    if (!result.converged)
-      throw std::runtime_error(fmt::format("mobility of {} spheres without a matrix: error {:.3g} after {} iterations",
-                                           n, result.error, result.iterations));
-    w_motion.col(c) = product(result.solution).tail(6 * n);
-    q_strain.col(c) = result.solution.head(5 * n);
-    most = std::max(most, result.iterations);
-    heard(c, q_motion.cols(), result.iterations);
-  }
-  iterations_ = most;
-  lubrication_.add(w_motion, w_strain, by_strain, q_strain);
+Eigen::VectorXd MatrixFreeHydrodynamics::solve_saddle(const Operator& saddle, const Eigen::VectorXd& b) const {
+  if (!near_) near_ = std::make_unique<NearField>(reduced(), pair_lubrication());
+  const KrylovResult result = gmres(
+      saddle, [this](const Eigen::VectorXd& r) { return near_->apply(r); }, b, settings_.tolerance, settings_.limit);
+  if (!result.converged)
+    throw std::runtime_error(fmt::format("mobility of {} spheres without a matrix: error {:.3g} after {} iterations",
+                                         size(), result.error, result.iterations));
+  iterations_ = result.iterations;
+  return result.solution;
 }
 
 }  // namespace crumble

@@ -94,12 +94,6 @@ HydroModel on(Rung rung, double range = HydroModel{}.lubrication_range) {
 }
 HydroModel of_order(int order) { return {Rung::multipole, order}; }
 
-Eigen::VectorXd wave(Eigen::Index n) {
-  Eigen::VectorXd v(n);
-  for (Eigen::Index k = 0; k < n; ++k) v[k] = std::sin(1.0 + 1.7 * static_cast<double>(k));
-  return v;
-}
-
 struct Cost {
   double assembly, factor, solve;
 };

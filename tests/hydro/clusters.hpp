@@ -100,6 +100,13 @@ inline Spheres grown(const Growth& g) {
   return unit_spheres(x);
 }
 
+// Some load or motion on every sphere, the same in every run.
+inline Eigen::VectorXd wave(Eigen::Index n) {
+  Eigen::VectorXd v(n);
+  for (Eigen::Index k = 0; k < n; ++k) v[k] = std::sin(1.0 + 1.7 * static_cast<double>(k));
+  return v;
+}
+
 // As the dried agglomerates of the paper in number and coordination: about 4.1 and 3.3.
 inline Spheres compact_85(unsigned seed = 1) { return grown({85, 0, 1e9, 12, 0, seed}); }
 inline Spheres hollow_115(unsigned seed = 1) { return grown({115, 3.5, 7, 1, 0.35, seed}); }

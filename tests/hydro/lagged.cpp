@@ -10,12 +10,6 @@
 namespace crumble::testing {
 namespace {
 
-Eigen::VectorXd wave(int n) {
-  Eigen::VectorXd v(n);
-  for (int k = 0; k < n; ++k) v[k] = std::sin(1.0 + 1.7 * k);
-  return v;
-}
-
 HydroModel relative() {
   HydroModel m;
   m.rung = Rung::fts_relative_lubrication;

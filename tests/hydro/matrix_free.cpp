@@ -10,12 +10,6 @@
 namespace crumble::testing {
 namespace {
 
-Eigen::VectorXd wave(Eigen::Index n) {
-  Eigen::VectorXd v(n);
-  for (Eigen::Index k = 0; k < n; ++k) v[k] = std::sin(1.0 + 1.7 * static_cast<double>(k));
-  return v;
-}
-
 constexpr Rung rungs[] = {Rung::fts, Rung::fts_lubrication, Rung::fts_relative_lubrication};
 
 // Six spheres keep all that come before them: nothing is left out but the digits of float32.
@@ -36,31 +30,26 @@ TEST(SparseInverse, IsSymmetricAndPositiveDefinite) {
   EXPECT_GT(P.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff(), 0);
 }
 
-TEST(MatrixFree, ResistanceIsThatOfTheDenseFactor) {
+TEST(MatrixFree, LoadsAndMotionsAreThoseOfTheDenseFactor) {
+  const auto near = [](const Eigen::MatrixXd& found, const Eigen::MatrixXd& exact, double tolerance) {
+    EXPECT_LT((found - exact).norm(), tolerance * exact.norm());
+  };
   for (const Spheres& s : {grown({150, 0, 1e9, 12, 0, 1}), random_spheres(40, 14, 5, 1, 3)})
     for (const Rung rung : rungs) {
+      SCOPED_TRACE(::testing::Message() << s.size() << " spheres, rung " << static_cast<int>(rung));
       const HydroModel model{rung};
-      const Eigen::VectorXd velocity = wave(6 * s.size());
-      const MatrixFreeHydrodynamics free(s, 0.7, model, {.tolerance = 1e-10});
-      const SphereLoads found = free.resistance(velocity, simple_shear(1.3));
-      const SphereLoads exact = DenseHydrodynamics(s, 0.7, model).resistance(velocity, simple_shear(1.3));
-      // Condition number of the mobility, 1e2, times the tolerance.
-      EXPECT_LT((found.force_torque - exact.force_torque).norm(), 1e-8 * exact.force_torque.norm());
-      EXPECT_LT((found.stresslet - exact.stresslet).norm(), 1e-8 * exact.stresslet.norm());
-    }
-}
-
-TEST(MatrixFree, MobilityIsThatOfTheDenseFactor) {
-  for (const Spheres& s : {grown({60, 0, 1e9, 12, 0, 1}), random_spheres(40, 14, 5, 1, 3)})
-    for (const Rung rung : rungs) {
-      const HydroModel model{rung};
-      const Eigen::VectorXd load = wave(6 * s.size());
+      const LinearFlow flow = simple_shear(1.3);
+      const Eigen::VectorXd known = wave(6 * s.size());
       const MatrixFreeHydrodynamics free(s, 0.7, model, {.tolerance = 1e-11});
-      const SphereMotion found = free.mobility(load, simple_shear(1.3));
-      const SphereMotion exact = DenseHydrodynamics(s, 0.7, model).mobility(load, simple_shear(1.3));
-      EXPECT_LT((found.velocity - exact.velocity).norm(), 1e-9 * exact.velocity.norm());
+      const DenseHydrodynamics dense(s, 0.7, model);
+      // Condition number of the mobility, 1e2, times the tolerance.
+      const SphereLoads loads = free.resistance(known, flow), exact_loads = dense.resistance(known, flow);
+      near(loads.force_torque, exact_loads.force_torque, 1e-8);
+      near(loads.stresslet, exact_loads.stresslet, 1e-8);
       // Lubrication of a touching pair multiplies its relative motion, and the error of that, by 1e6.
-      EXPECT_LT((found.stresslet - exact.stresslet).norm(), 1e-6 * exact.stresslet.norm());
+      const SphereMotion motion = free.mobility(known, flow), exact_motion = dense.mobility(known, flow);
+      near(motion.velocity, exact_motion.velocity, 1e-9);
+      near(motion.stresslet, exact_motion.stresslet, 1e-6);
     }
 }
 
