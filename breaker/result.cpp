@@ -140,7 +140,7 @@ void fill_report(Report& report, const BreakerScene& scene, const Start& start, 
   report.result("closing.residual_rms_over_f_po", start.rms_use);
   report.result("closing.residual_max_over_f_po", start.max_use);
   report.result("closing.lost_contacts", static_cast<std::int64_t>(start.lost));
-  report.result("closing.made_contacts", static_cast<std::int64_t>(start.unlisted));
+  report.result("closing.made_contacts", static_cast<std::int64_t>(start.made));
   report.result("steps_rejected", s.rejected);
   report.result("newton_iterations", s.newton_iterations);
   report.error("critical_stress_relative", relative_error(b, companion), how_estimated(scene, b, companion));
@@ -186,7 +186,7 @@ std::vector<std::string> describe(const BreakerScene& scene, const Start& start)
     lines.push_back(
         fmt::format("contacts closed: self-stress {:.2g} F_po rms, {:.2g} F_po at most; {} contacts could "
                     "not be kept, {} new ones touch",
-                    start.rms_use, start.max_use, start.lost, start.unlisted));
+                    start.rms_use, start.max_use, start.lost, start.made));
   if (scene.model.hydro.rung == Rung::fts_lubrication)
     lines.push_back(
         "warning: fts-lubrication acts on the collective motion of near pairs and adds up over neighbours; "

@@ -77,7 +77,7 @@ Start make_start(Agglomerate agglomerate, const std::string& name, const Breaker
   if (start.scale != 1) scale(start.agglomerate, start.scale);
   if (!scene.keep_contacts) {
     refuse_open_contacts(start.agglomerate, name, scene.largest_gap);
-    Closed closed = close_contacts(particles, frame, scene.model.material);
+    Closed closed = close_all_contacts(particles, frame, scene.model.material, start.made);
     if (!closed.converged)
       throw std::runtime_error(
           fmt::format("{}: closing the contacts did not converge in {} steps: is the contact "
@@ -86,7 +86,6 @@ Start make_start(Agglomerate agglomerate, const std::string& name, const Breaker
     frame = std::move(closed.frame);
     start.closed = true;
     start.lost = closed.lost.size();
-    start.unlisted = closed.unlisted.size();
     if (start.lost > 0) require_one_piece(start.agglomerate, name + ", closed,", scene.only_largest);
   }
   frame.step = 0;

@@ -10,7 +10,7 @@ struct Start {
   Agglomerate agglomerate;  // at rest, time 0
   double scale = 1;         // new over old radius
   bool closed = false;
-  std::size_t lost = 0, unlisted = 0;         // of the closing; unlisted pairs become contacts at once
+  std::size_t lost = 0, made = 0;             // contacts, by the closing
   double residual_rms = 0, residual_max = 0;  // tension in the contacts, N
   double rms_use = 0, max_use = 0;            // the same over the pull-off force of each pair
 };

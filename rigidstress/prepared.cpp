@@ -58,7 +58,7 @@ Prepared prepare(const Agglomerate& agglomerate, const std::string& name, std::o
   for (Contact& c : frame.contacts) c.born = 0;
   refuse_open_contacts(p.particles, frame, name, largest_gap);
 
-  Closed closed = close_contacts(p.particles, frame, material);
+  Closed closed = close_all_contacts(p.particles, frame, material, p.made);
   if (!closed.converged)
     throw std::runtime_error(
         fmt::format("{}: closing the contacts did not converge in {} steps: is the contact list "
@@ -66,7 +66,6 @@ Prepared prepare(const Agglomerate& agglomerate, const std::string& name, std::o
                     name, closed.iterations));
   p.frame = std::move(closed.frame);
   p.lost = std::move(closed.lost);
-  p.unlisted = std::move(closed.unlisted);
   p.largest_tension = closed.tension_max;
   double squares = 0;
   for (const Contact& c : p.frame.contacts) {

@@ -15,12 +15,13 @@ struct Prepared {
   Frame frame;                                // contacts closed to the JKR equilibrium gap; what the file keeps
   std::vector<Vector3> position;              // where the analysis has the spheres: contacts at gap zero, see below
   double scale = 1;                           // new over old radius
-  std::vector<NearPair> lost, unlisted;       // of the closing
+  std::vector<NearPair> lost;                 // of the closing
+  std::size_t made = 0;                       // pairs that it brought to overlap: contacts, too
   double residual_rms = 0, residual_max = 0;  // tension that closing left, N
   double largest_tension = 0;                 // the same, in pull-off forces
 };
 
-// Scales the agglomerate to `radius` (mean; without it it keeps its own) and closes the contacts on its list.
+// Scales the agglomerate to `radius` (mean; without it it keeps its own) and closes its contacts.
 //
 // A JKR contact at rest overlaps by (2/3) b0^2/a, 0.2 % of a at 100 nm, since the spheres are flattened there. A rigid
 // analysis of spheres wants them to touch: `position` is the closed configuration stretched by that amount, the mean of

@@ -176,11 +176,11 @@ std::vector<std::string> describe(const Prepared& p) {
       fmt::format("{} particles, {} contacts; radius scaled by {:g}; contacts closed, self-stress left {:.2g} "
                   "N rms, {:.2g} N at most",
                   p.particles.size(), p.frame.contacts.size(), p.scale, p.residual_rms, p.residual_max));
-  for (const auto& [what, pairs] : {std::pair("contact lost in closing: ", &p.lost),
-                                    std::pair("overlapping pair that is no contact: ", &p.unlisted)})
-    for (std::size_t k = 0; k < std::min<std::size_t>(pairs->size(), 5); ++k)
-      lines.push_back(fmt::format("{}{}-{}, gap {:.3g} nm{}", what, (*pairs)[k].i, (*pairs)[k].j, 1e9 * (*pairs)[k].gap,
-                                  k == 4 && pairs->size() > 5 ? fmt::format(" (and {} more)", pairs->size() - 5) : ""));
+  if (p.made > 0) lines.push_back(fmt::format("{} of them are new: pairs that closing brought to overlap", p.made));
+  for (std::size_t k = 0; k < std::min<std::size_t>(p.lost.size(), 5); ++k)
+    lines.push_back(fmt::format("contact lost in closing: {}-{}, gap {:.3g} nm{}", p.lost[k].i, p.lost[k].j,
+                                1e9 * p.lost[k].gap,
+                                k == 4 && p.lost.size() > 5 ? fmt::format(" (and {} more)", p.lost.size() - 5) : ""));
   return lines;
 }
 

@@ -221,4 +221,22 @@ Closed close_contacts(const Particles& particles, const Frame& frame, const Mate
   return closed;
 }
 
+Closed close_all_contacts(const Particles& particles, const Frame& frame, const Material& material, std::size_t& made) {
+  Closed closed = close_contacts(particles, frame, material);
+  made = 0;
+  for (int round = 0; round < 10 && closed.converged && !closed.unlisted.empty(); ++round) {
+    Frame longer = closed.frame;
+    for (const NearPair& pair : closed.unlisted) longer.contacts.push_back({.i = pair.i, .j = pair.j});
+    made += closed.unlisted.size();
+    Closed next = close_contacts(particles, longer, material);
+    next.iterations += closed.iterations;
+    next.lost.insert(next.lost.end(), closed.lost.begin(), closed.lost.end());
+    closed = std::move(next);
+  }
+  closed.largest_move = 0;
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    closed.largest_move = std::max(closed.largest_move, (closed.frame.position[i] - frame.position[i]).norm());
+  return closed;
+}
+
 }  // namespace crumble

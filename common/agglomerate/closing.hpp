@@ -35,4 +35,10 @@ struct Closed {
 // coincident centres, naming them.
 Closed close_contacts(const Particles& particles, const Frame& frame, const Material& material);
 
+// The same, and pairs that come to overlap without being listed are contacts too: closing goes on with them in the list
+// until none is left out (`unlisted` is empty then), for at most ten rounds. A dense agglomerate whose contacts were
+// deeper than those of the new radius closes onto such pairs; left alone they would start with tens of pull-off forces
+// of compression. `made` is set to their number.
+Closed close_all_contacts(const Particles& particles, const Frame& frame, const Material& material, std::size_t& made);
+
 }  // namespace crumble

@@ -179,6 +179,19 @@ TEST(Closing, APairThatComesIntoContactUnlistedIsReported) {
   EXPECT_LT(closed.unlisted[0].gap, 0);
 }
 
+TEST(Closing, APairThatComesIntoContactUnlistedIsClosedTooWhereAllAreWanted) {
+  const std::vector<Vector3> x{{-1.00005 * a, 0, 0}, {1.00005 * a, 0, 0}, {0, 1.78 * a, 0}};
+  const Particles p = shapes::equal_spheres(3, a);
+  std::size_t made = 0;
+  const Closed closed = close_all_contacts(p, shapes::frame(x, {{.i = 0, .j = 2}, {.i = 1, .j = 2}}), table_1, made);
+  EXPECT_EQ(made, 1u);
+  EXPECT_TRUE(closed.unlisted.empty());
+  ASSERT_EQ(closed.frame.contacts.size(), 3u);
+  EXPECT_EQ(closed.frame.contacts[0].j, 1);
+  EXPECT_LT(worst_residual(p, closed.frame), 1e-12 * a);
+  EXPECT_LT(closed.tension_rms, 1e-9);
+}
+
 TEST(Closing, ScalingToTenTimesTheRadiusKeepsTheListAndFreesTheBonds) {
   const Grown small = random_tree(115, a, a, 0, 6);
   const Closed dried = close_contacts(small.particles, small.frame, table_1);
