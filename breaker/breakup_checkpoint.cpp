@@ -19,6 +19,10 @@ BreakupCheckpoint::BreakupCheckpoint(const std::string& output, CheckpointOwner 
   if (found_) stored_ = load_checkpoint(path_, owner_);
 }
 
+void BreakupCheckpoint::require() const {
+  if (!found_) throw no_checkpoint(path_);
+}
+
 void BreakupCheckpoint::save(const BreakupRun& run, const Progression& progression) const {
   const BreakupRun::Memory m = run.memory();
   Checkpoint out;

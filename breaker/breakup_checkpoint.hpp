@@ -24,6 +24,8 @@ class BreakupCheckpoint {
 
   bool found() const { return found_; }
   const std::string& path() const { return path_; }
+  // Throws InputError if none was found.
+  void require() const;
   void resume(BreakupRun& run, Progression& progression) const;
   void save(const BreakupRun& run, const Progression& progression) const;
   void remove() const;

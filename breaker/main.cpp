@@ -29,7 +29,8 @@ ProgramDescription description() {
             "half the time, and no error"},
            {"breaker breakup.toml breakup.h5 -o more.h5 --set particle.contacts=keep", "a fragment goes on"}},
           version_text("breaker"),
-          breaker_parameters()};
+          breaker_parameters(),
+          true};
 }
 
 void put_frame(AgglomerateWriter& writer, const BreakupRun& run, const BreakerScene& scene, Progression& p) {
@@ -106,6 +107,7 @@ int break_up(int argc, const char* const* argv) {
 
   BreakupCheckpoint checkpoint(line.output,
                                {"breaker", provenance.version, text.resolved() + "\n# of " + provenance.parent_sha256});
+  if (line.restart) checkpoint.require();
   BreakupRun run(scene, start.agglomerate, 1);
   Progression p;
   if (checkpoint.found()) {

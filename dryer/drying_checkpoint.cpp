@@ -14,6 +14,10 @@ DryingCheckpoint::DryingCheckpoint(const std::string& output, CheckpointOwner ow
   if (found_) stored_ = load_checkpoint(path_, owner_);
 }
 
+void DryingCheckpoint::require() const {
+  if (!found_) throw no_checkpoint(path_);
+}
+
 void DryingCheckpoint::save(const DryingRun& run, const std::optional<DryingOutcome>& companion, int frames,
                             std::int64_t last_frame_step) const {
   Checkpoint out;

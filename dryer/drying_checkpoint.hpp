@@ -17,6 +17,8 @@ class DryingCheckpoint {
 
   bool found() const { return found_; }
   const std::string& path() const { return path_; }
+  // Throws InputError if none was found.
+  void require() const;
 
   DryingRun resume(const DryingScene& scene) const;
   std::optional<DryingOutcome> companion() const;

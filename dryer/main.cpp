@@ -32,7 +32,8 @@ ProgramDescription description() {
            {"dryer continuum --peclet 1 --theta 0.2,0.4 -o continuum.csv",
             "concentration of point particles; dryer continuum --help explains"}},
           version_text("dryer"),
-          drying_parameters()};
+          drying_parameters(),
+          true};
 }
 
 // Frames are due whenever the front has passed the next of evenly spaced radii.
@@ -109,6 +110,7 @@ int dry(int argc, const char* const* argv) {
   }
 
   DryingCheckpoint checkpoint(line.output, {"dryer", provenance.version, text.resolved()});
+  if (line.restart) checkpoint.require();
   if (checkpoint.found()) progress.say("resuming from " + checkpoint.path());
   std::optional<DryingOutcome> companion;
   if (checkpoint.found())

@@ -59,6 +59,12 @@ Checkpoint read_restart(const std::filesystem::path& path, const CheckpointOwner
 
 }  // namespace
 
+InputError no_checkpoint(const std::filesystem::path& path) {
+  return InputError(
+      fmt::format("--restart: there is no {} with its unfinished output; without --restart the run begins at its start",
+                  path.string()));
+}
+
 const std::vector<double>& Checkpoint::real(const std::string& name) const { return find(reals, name); }
 const std::vector<std::int64_t>& Checkpoint::integer(const std::string& name) const { return find(integers, name); }
 

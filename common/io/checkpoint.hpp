@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "common/io/errors.hpp"
+
 namespace crumble {
 
 // Arrays by name, in the program's own units, stored to the bit under /restart.
@@ -30,5 +32,8 @@ void save_checkpoint(const std::filesystem::path& path, const CheckpointOwner& o
 // Throws InputError saying which of program, version and scene differs and what to do, ContentError if the file is not
 // a checkpoint.
 Checkpoint load_checkpoint(const std::filesystem::path& path, const CheckpointOwner& owner);
+
+// What to say to who asked for a checkpoint that is not there, or whose unfinished output is gone.
+InputError no_checkpoint(const std::filesystem::path& path);
 
 }  // namespace crumble

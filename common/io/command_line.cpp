@@ -36,7 +36,7 @@ std::string help_footer(const ProgramDescription& program) {
 struct Raw {
   std::vector<std::string> files, sets;
   std::string output, report, seed, threads;
-  bool check = false, quiet = false, version = false, defaults = false, reference = false;
+  bool check = false, quiet = false, restart = false, version = false, defaults = false, reference = false;
 };
 
 void declare(CLI::App& app, Raw& raw, const ProgramDescription& program) {
@@ -54,6 +54,10 @@ void declare(CLI::App& app, Raw& raw, const ProgramDescription& program) {
   app.add_option("--report", raw.report, "results, their errors and the cost of the run as JSON")
       ->type_name("FILE.json");
   app.add_flag("--check", raw.check, "read and build everything, run nothing");
+  if (program.keeps_checkpoint)
+    app.add_flag("--restart", raw.restart,
+                 "go on from the checkpoint of -o, which must be there; without this a run goes on if there is one and "
+                 "begins if there is none");
   app.add_flag("--quiet", raw.quiet, "no progress on stderr");
   app.add_flag("--print-defaults", raw.defaults, "print a complete commented scene");
   app.add_flag("--print-reference", raw.reference, "print the manual's page of all parameters (Markdown)");
@@ -145,6 +149,7 @@ CommandLine interpret(const ProgramDescription& program, const Raw& raw) {
     command.threads = static_cast<int>(whole_number(program, "--threads", raw.threads, 1, 1024));
   command.check = raw.check;
   command.quiet = raw.quiet;
+  command.restart = raw.restart;
   return command;
 }
 

@@ -14,12 +14,13 @@ struct ProgramDescription {
     std::string what, meaning;
   };
 
-  std::string name;            // "dryer"
-  std::string purpose;         // a sentence or two, the first lines of --help
-  std::vector<Text> inputs;    // files wanted behind the scene: {"AGGLOMERATE.h5", "the agglomerate to load"}
-  std::vector<Text> examples;  // {"dryer hollow.toml -o hollow.h5", "dry one granule"}
-  std::string version;         // the whole answer to --version
-  ParameterTable parameters;   // --seed exists if run.seed is declared
+  std::string name;               // "dryer"
+  std::string purpose;            // a sentence or two, the first lines of --help
+  std::vector<Text> inputs;       // files wanted behind the scene: {"AGGLOMERATE.h5", "the agglomerate to load"}
+  std::vector<Text> examples;     // {"dryer hollow.toml -o hollow.h5", "dry one granule"}
+  std::string version;            // the whole answer to --version
+  ParameterTable parameters;      // --seed exists if run.seed is declared
+  bool keeps_checkpoint = false;  // --restart exists
 };
 
 struct CommandLine {
@@ -30,6 +31,7 @@ struct CommandLine {
   std::string report;               // empty: none wanted
   int threads = 0;                  // 0: as many as OpenMP takes by itself
   bool check = false, quiet = false;
+  bool restart = false;  // a checkpoint must be there
 
   // What --help, --version, --print-defaults or --print-reference asked for: print it to stdout and end with 0.
   std::optional<std::string> answer;

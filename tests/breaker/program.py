@@ -102,12 +102,20 @@ class Program(unittest.TestCase):
         other = self.run_it(*self.command(start, *settings[:1], output=cut.name))
         self.assertEqual(other.returncode, 2)
         self.assertIn("another scene", other.stderr)
-        self.breakup(start, *settings, output=cut.name)
+        again = self.run_it(*self.command(start, *settings, output=cut.name), "--restart")
+        self.assertEqual(again.returncode, 0, again.stderr)
         self.assertFalse(pathlib.Path(f"{cut}.checkpoint").exists())
         a, b = contents(whole), contents(cut)
         self.assertEqual(a.keys(), b.keys())
         for name in a:
             self.assertTrue(numpy.array_equal(a[name], b[name]), name)
+
+    def test_restart_without_a_checkpoint_is_refused(self):
+        start = self.agglomerate(DOUBLET)
+        run = self.run_it(*self.command(start, output="none.h5"), "--restart")
+        self.assertEqual(run.returncode, 2)
+        self.assertIn("--restart: there is no ", run.stderr)
+        self.assertFalse((self.folder / "none.h5").exists())
 
     def test_fragments_break_until_they_are_stable(self):
         report, _, out = self.breakup(self.agglomerate(coil(12)), "breakup.until_stable=true", "error.estimate=false")

@@ -41,8 +41,11 @@ with tempfile.TemporaryDirectory() as folder:
     refused = subprocess.run(command(cut, "--seed", "2"), capture_output=True, text=True)
     assert refused.returncode == 2 and "another scene" in refused.stderr, refused
 
-    subprocess.run(command(cut), check=True, stdout=subprocess.DEVNULL)
+    subprocess.run(command(cut, "--restart"), check=True, stdout=subprocess.DEVNULL)
     assert not os.path.exists(cut + ".checkpoint") and not os.path.exists(cut + ".tmp"), os.listdir(folder)
+    same(whole, cut)
+    refused = subprocess.run(command(cut, "--restart"), capture_output=True, text=True)
+    assert refused.returncode == 2 and "there is no " in refused.stderr, refused
     same(whole, cut)
 
     two = os.path.join(folder, "two.h5")

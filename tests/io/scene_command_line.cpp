@@ -80,6 +80,15 @@ TEST(CommandLine, seed_is_offered_only_where_it_is_declared) {
             "dryer: unknown option '--seed'; did you mean '--set'?");
 }
 
+TEST(CommandLine, restart_is_offered_only_where_checkpoints_are_kept) {
+  EXPECT_EQ(first_line_of_refusal({"a.toml", "-o", "b.h5", "--restart"}),
+            "dryer: unknown option '--restart'; did you mean '--report'?");
+  ProgramDescription p = program();
+  p.keeps_checkpoint = true;
+  EXPECT_TRUE(parse({"a.toml", "-o", "b.h5", "--restart"}, p).restart);
+  EXPECT_FALSE(parse({"a.toml", "-o", "b.h5"}, p).restart);
+}
+
 TEST(CommandLine, each_misuse_has_its_own_message) {
   EXPECT_EQ(first_line_of_refusal({}), "dryer: 0 file names are given, wanted: SCENE.toml");
   EXPECT_EQ(first_line_of_refusal({"a.toml", "b.toml", "-o", "c.h5"}),
