@@ -57,7 +57,7 @@ def main(path):
                       ("smallest semi-axis", "smallest_semi_axis_change_relative")):
         print(f"{name:34} {100 * result[key]:+.1f} %")
     print(f"{'fragments':34} {' '.join(map(str, result['fragments']))}")
-    print(f"tables: {stem}-course.csv (Fig 7), {stem}-events.csv; frames (Fig 6): {path}")
+    print(f"tables: {stem}-course.csv (Fig 7), {stem}-events.csv; pictures: {stem}-strip.png (Fig 6), {stem}-course.svg")
 
 
 if __name__ == "__main__":

@@ -1,0 +1,107 @@
+"""One breakup in pictures (Figs 6 and 7 of Vasquez Giuliano et al. 2022): snapshots as a strip, courses against flow stress.
+
+    breakup_pictures.py BREAKUP.h5 [SNAPSHOTS]      (writes BREAKUP-strip.png and BREAKUP-course.svg)
+
+The strip looks along y, so that elongation and shear lie in the page; spheres are coloured by their number of contacts.
+"""
+import pathlib
+import sys
+
+import h5py
+import matplotlib
+import numpy
+
+matplotlib.use("Agg")
+matplotlib.rcParams["svg.hashsalt"] = "crumble"  # the same file every time
+from matplotlib import pyplot  # noqa: E402
+from matplotlib.collections import PatchCollection  # noqa: E402
+from matplotlib.patches import Circle  # noqa: E402
+
+BLUE, ORANGE, GREEN, BLACK = "#0072B2", "#D55E00", "#009E73", "#222222"  # told apart by all eyes (Okabe & Ito)
+
+
+def chosen(stress, broken, count):
+    """Frames at even stresses, the last one before breakup, and the end."""
+    last = len(stress) - 1
+    whole = [k for k in range(last) if stress[k] <= stress[last]]
+    if broken and len(whole) > 1:
+        inner = [int(abs(stress[whole] - stress[whole[-1]] * part).argmin()) for part in numpy.linspace(0, 1, count - 1)]
+    else:
+        inner = [int(abs(stress - stress[last] * part).argmin()) for part in numpy.linspace(0, 1, count)[:-1]]
+    return sorted({*inner, last})
+
+
+def draw(axes, x, radius, contacts, colours):
+    order = numpy.argsort(-x[:, 1])  # far ones first: y points away from the reader
+    for shade, size, shift in ((0.0, 1.0, 0.0), (0.35, 0.55, 0.25), (0.75, 0.18, 0.4)):
+        # Layer by layer would let the lights of far spheres shine through near ones: z-order goes with depth.
+        for rank, p in enumerate(order):
+            face = numpy.array(colours(contacts[p]))
+            face[:3] += shade * (1 - face[:3])
+            place = x[p, [0, 2]] + shift * radius[p] * numpy.array([-1, 1]) / numpy.sqrt(2)
+            axes.add_collection(PatchCollection([Circle(place, size * radius[p])], facecolors=[face],
+                                                edgecolors=BLACK if shift == 0 else "none", linewidths=0.3,
+                                                zorder=2 + 3 * rank + 4 * shift))
+
+
+def strip(path, out, count):
+    with h5py.File(path) as file:
+        stress = file["observables/flow_stress/value"][:]
+        frames = chosen(stress, file["h5md/modules/agglomerate"].attrs["state"] in ("broken", b"broken"), count)
+        radius, offset = file["particles/all/radius"][:], file["contacts/offset"][:]
+        snapshots = []
+        for k in frames:
+            pairs = file["contacts/pair"][offset[k]:offset[k + 1]]
+            x, label = file["particles/all/position/value"][k], file["particles/all/fragment/value"][k]
+            largest = numpy.bincount(label).argmax()
+            snapshots.append((stress[k], x - x[label == largest].mean(axis=0),
+                              numpy.bincount(pairs.ravel(), minlength=len(radius))))
+    # Pieces of the end may be far away: what counts is that every panel has one scale.
+    half = 1.15 * max(abs(x[:, [0, 2]]).max() for _, x, _ in (snapshots[:-1] or snapshots)) + radius.max()
+    figure, panels = pyplot.subplots(1, len(snapshots), figsize=(2.6 * len(snapshots), 3.1), squeeze=False)
+    colours = matplotlib.colormaps["cividis"]
+    most = max(8, max(contacts.max() for _, _, contacts in snapshots))
+    for axes, (value, x, contacts) in zip(panels[0], snapshots):
+        draw(axes, x, radius, contacts, lambda c: colours(c / most))
+        axes.set(xlim=(-half, half), ylim=(-half, half), aspect="equal", xticks=[], yticks=[], title=f"{value:.0f} Pa")
+        for side in axes.spines.values():
+            side.set_visible(False)
+    first = panels[0][0]
+    bar = 10 ** numpy.floor(numpy.log10(half))
+    first.plot([-0.95 * half, -0.95 * half + bar], [-0.95 * half] * 2, color=BLACK, linewidth=2)
+    first.text(-0.95 * half, -0.9 * half, f"{bar:g} nm", fontsize=8)
+    shades = matplotlib.cm.ScalarMappable(matplotlib.colors.Normalize(0, most), colours)
+    figure.colorbar(shades, ax=list(panels[0]), fraction=0.02, pad=0.01, label="contacts")
+    figure.savefig(out, dpi=150, bbox_inches="tight")
+    pyplot.close(figure)
+
+
+def course(path, out):
+    with h5py.File(path) as file:
+        series = {name: file[f"series/{name}/value"][:] for name in file["series"]}
+    stress, size = series["flow_stress"], series["radius_of_gyration"][0]
+    figure, (shape, contacts, limits) = pyplot.subplots(1, 3, figsize=(12, 3.6), constrained_layout=True)
+    for name, label, colour, dashes in (("semi_axis_largest", "largest semi-axis", ORANGE, "-"),
+                                        ("semi_axis_middle", "middle semi-axis", GREEN, "--"),
+                                        ("semi_axis_smallest", "smallest semi-axis", BLUE, "-."),
+                                        ("radius_of_gyration", "radius of gyration", BLACK, ":")):
+        shape.plot(stress, series[name], dashes, color=colour, label=label)
+    shape.set(ylabel="nm", ylim=(0, 4 * size))
+    contacts.plot(stress, series["contacts"], color=BLUE, label="contacts")
+    contacts.plot(stress, series["largest_fragment"], "--", color=ORANGE, label="particles, largest fragment")
+    contacts.set(ylabel="number", ylim=(0, None))
+    for name, colour, dashes in (("slipping", GREEN, "--"), ("twisting", BLUE, "-."), ("rolling", ORANGE, "-")):
+        limits.plot(stress, series[name], dashes, color=colour, label=f"{name} contacts")
+    limits.set(ylabel="at their limit", ylim=(0, None))
+    for axes in (shape, contacts, limits):
+        axes.set(xlabel="flow stress, Pa", xlim=(0, None))
+        axes.legend(frameon=False, fontsize=8)
+    figure.savefig(out, metadata={"Date": None})
+    pyplot.close(figure)
+
+
+if __name__ == "__main__":
+    source = pathlib.Path(sys.argv[1])
+    stem = source.with_suffix("")
+    strip(source, stem.with_name(stem.name + "-strip.png"), int(sys.argv[2]) if len(sys.argv) > 2 else 6)
+    course(source, stem.with_name(stem.name + "-course.svg"))
