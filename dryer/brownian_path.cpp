@@ -26,22 +26,6 @@ void normals(const std::uint32_t* u, const std::uint32_t* v, std::size_t count, 
 // Index of a node: its level counted from the coarsest, and its interval at that level.
 std::uint64_t node(int level, std::uint64_t interval) { return static_cast<std::uint64_t>(level) << 58 | interval; }
 
-// random_words of many particles, one row a word.
-void random_rows(std::uint64_t seed, Purpose purpose, std::span<const std::uint32_t> particle, std::uint64_t index,
-                 const std::array<std::uint32_t*, 4>& out) {
-  std::uint32_t *a = out[0], *b = out[1], *c = out[2], *d = out[3];
-  const std::uint32_t* id = particle.data();
-  const std::size_t count = particle.size();
-#pragma omp simd
-  for (std::size_t p = 0; p < count; ++p) {
-    const auto words = random_words(seed, purpose, id[p], index);
-    a[p] = words[0];
-    b[p] = words[1];
-    c[p] = words[2];
-    d[p] = words[3];
-  }
-}
-
 // Words and normal numbers of many nodes, one row a component: six rows for the even node of a pair, six for the odd.
 struct Draws {
   std::vector<std::uint32_t> words;
@@ -58,11 +42,11 @@ struct Draws {
   void draw(std::size_t at, std::uint64_t seed, std::span<const std::uint32_t> particle, int level,
             std::uint64_t even) {
     constexpr std::size_t row_of[3][4] = {{0, 1, 2, 3}, {6, 7, 8, 9}, {4, 5, 10, 11}};
-    const Purpose purpose[3] = {Purpose::brownian_path, Purpose::brownian_path, Purpose::brownian_torque};
+    const Purpose purpose[3] = {Purpose::brownian_path, Purpose::brownian_path, Purpose::brownian_path_rest};
     for (std::size_t d = 0; d < 3; ++d)
-      random_rows(seed, purpose[d], particle, node(level, even + (d == 1)),
-                  {&words[row_of[d][0] * count + at], &words[row_of[d][1] * count + at],
-                   &words[row_of[d][2] * count + at], &words[row_of[d][3] * count + at]});
+      random_words(seed, purpose[d], particle, node(level, even + (d == 1)),
+                   {&words[row_of[d][0] * count + at], &words[row_of[d][1] * count + at],
+                    &words[row_of[d][2] * count + at], &words[row_of[d][3] * count + at]});
   }
   void transform() {
     for (std::size_t k = 0; k < 12; k += 2)
@@ -81,8 +65,8 @@ void BrownianPath::whole(std::span<const std::uint32_t> particle, std::uint64_t 
   thread_local std::vector<std::uint32_t> words;
   words.resize(4 * count);
   out.resize(4 * count);
-  random_rows(seed_, Purpose::brownian_path, particle, node(0, interval),
-              {&words[0], &words[count], &words[2 * count], &words[3 * count]});
+  random_words(seed_, Purpose::brownian_path, particle, node(0, interval),
+               {&words[0], &words[count], &words[2 * count], &words[3 * count]});
   for (std::size_t k = 0; k < 4; k += 2)
     normals(&words[k * count], &words[(k + 1) * count], count, &out[k * count], &out[(k + 1) * count]);
 }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 using namespace crumble;
 
 namespace {
@@ -14,6 +16,19 @@ TEST(Noise, is_a_function_of_its_key_and_every_part_of_the_key_matters) {
   EXPECT_NE(w, random_words(1, Purpose::brownian_path, 2, 3));
   EXPECT_NE(w, random_words(1, Purpose::start_position, 3, 3));
   EXPECT_NE(w, random_words(1, Purpose::start_position, 2, 3 + (1ULL << 32)));
+}
+
+TEST(Noise, words_of_many_particles_are_those_of_each) {
+  const std::vector<std::uint32_t> particle = {0, 1, 5, 6, 7, 8, 9, 1000, 4294967295u, 12, 13, 14, 15, 16, 17, 18, 3};
+  const std::uint64_t seed = (7ULL << 32) + 11, index = (5ULL << 58) + 123456789;
+  std::vector<std::uint32_t> rows(4 * particle.size());
+  std::array<std::uint32_t*, 4> row;
+  for (std::size_t k = 0; k < 4; ++k) row[k] = &rows[k * particle.size()];
+  random_words(seed, Purpose::brownian_path, particle, index, row);
+  for (std::size_t p = 0; p < particle.size(); ++p) {
+    const auto words = random_words(seed, Purpose::brownian_path, particle[p], index);
+    for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(row[k][p], words[k]) << "particle " << particle[p];
+  }
 }
 
 TEST(Noise, normal_numbers_have_unit_variance_and_no_mean_or_correlation) {
