@@ -12,7 +12,8 @@ void MotionBlock::resize(std::size_t count) {
 
 template <class Visit>
 void BondBlock::each_array(Visit visit) {
-  for (Triple* triple : {&separation_, &normal_, &sliding_, &rolling_, &force_, &torque_i_, &torque_j_})
+  for (Triple* triple :
+       {&separation_, &normal_, &sliding_, &rolling_, &force_, &torque_i_, &torque_j_, &apart_, &turn_i_, &turn_j_})
     for (auto& array : *triple) visit(array);
   for (auto* scalar :
        {&twisting_, &gap_, &a_i_, &a_j_, &length_, &pull_off_, &lost_gap_, &k_s_, &k_t_, &k_r_, &F_s_, &M_t_, &M_r_})
@@ -43,7 +44,7 @@ void BondBlock::add(const Contact& bond, std::int32_t i, std::int32_t j, const B
     put(normal_[k], bond.normal[k]);
     put(sliding_[k], bond.sliding[k]);
     put(rolling_[k], bond.rolling[k]);
-    for (Triple* load : {&force_, &torque_i_, &torque_j_}) put((*load)[k], 0.0);
+    for (Triple* each : {&force_, &torque_i_, &torque_j_, &apart_, &turn_i_, &turn_j_}) put((*each)[k], 0.0);
   }
   put(twisting_, bond.twisting);
   put(gap_, bond.gap);
@@ -108,28 +109,33 @@ inline void write(Triple& array, std::size_t first, const V& value) {
   write(array[1], first, value.y);
   write(array[2], first, value.z);
 }
-inline V gather(const Triple& array, const std::int32_t* place) {
-  V out;
-  for (std::size_t k = 0; k < lanes; ++k) {
-    out.x[k] = array[0][place[k]];
-    out.y[k] = array[1][place[k]];
-    out.z[k] = array[2][place[k]];
-  }
-  return out;
-}
-
 // Factor that brings a spring of a given displacement back to its limit, 1 if within.
 inline Lane cap(const Lane& squared, const Lane& stiffness, const Lane& limit) {
   const Lane force = stiffness * squared.sqrt();
-  return (force > limit).select(limit / force.max(1e-300), Lane::Ones());
+  return force.min(limit) / force.max(1e-300);
 }
 
 }  // namespace
 
-void BondBlock::move(const MotionBlock& motion, std::size_t b) {
-  const V D = gather(motion.position, &j_[b]) - gather(motion.position, &i_[b]);
-  const V moved = D - read(separation_, b);
-  const V Wi = gather(motion.rotation, &i_[b]), Wj = gather(motion.rotation, &j_[b]), W = Wj - Wi;
+// In loops of their own, which the compiler can make gathers of.
+void BondBlock::follow(const MotionBlock& motion) {
+  const std::size_t count = padded(count_);
+  const std::int32_t *i = i_.data(), *j = j_.data();
+  for (int k = 0; k < 3; ++k) {
+    const double *x = motion.position[k].data(), *w = motion.rotation[k].data();
+    double *apart = apart_[k].data(), *turn_i = turn_i_[k].data(), *turn_j = turn_j_[k].data();
+#pragma omp simd
+    for (std::size_t b = 0; b < count; ++b) apart[b] = x[j[b]] - x[i[b]];
+#pragma omp simd
+    for (std::size_t b = 0; b < count; ++b) turn_i[b] = w[i[b]];
+#pragma omp simd
+    for (std::size_t b = 0; b < count; ++b) turn_j[b] = w[j[b]];
+  }
+}
+
+void BondBlock::move(std::size_t b) {
+  const V D = read(apart_, b), moved = D - read(separation_, b);
+  const V Wi = read(turn_i_, b), Wj = read(turn_j_, b), W = Wj - Wi;
   const Lane a_i = read(a_i_, b), a_j = read(a_j_, b), reach = a_i + a_j;
   const Lane distance = dot(D, D).sqrt(), h = distance - reach;
   const V n0 = read(normal_, b), n = distance.inverse() * D, sum = n0 + n;
@@ -161,7 +167,6 @@ void BondBlock::move(const MotionBlock& motion, std::size_t b) {
 
 void BondBlock::load(std::size_t b) {
   const Lane gap = read(gap_, b), reach = read(lost_gap_, b);
-  const Lane held = (gap > reach).select(Lane::Zero(), Lane::Ones());
   // Root c of h/L = (4 c - 6 c^4)/3 (common/contact/jkr.hpp), from a start within 2 % by three steps of Newton.
   const Lane x = gap.min(reach) / read(length_, b);
   Lane c = (0.5 * (4.0 / 3.0 * (0.9 - 0.12 * x).max(0.85) - x)).sqrt().sqrt();
@@ -175,9 +180,9 @@ void BondBlock::load(std::size_t b) {
   const V M = (-read(k_t_, b) * read(twisting_, b)) * n - read(k_r_, b) * read(rolling_, b);
   const Lane a_i = read(a_i_, b), a_j = read(a_j_, b);
   const V turn = (1 + gap / (a_i + a_j)) * cross(n, F);
-  write(force_, b, held * (F - tension * n));
-  write(torque_i_, b, -held * (M + a_i * turn));
-  write(torque_j_, b, held * (M - a_j * turn));
+  write(force_, b, F - tension * n);
+  write(torque_i_, b, Lane::Constant(-1) * (M + a_i * turn));
+  write(torque_j_, b, M - a_j * turn);
 }
 
 void BondBlock::collect(MotionBlock& motion) {
@@ -185,6 +190,10 @@ void BondBlock::collect(MotionBlock& motion) {
   const std::size_t count = size();
   double shallowest = 0;
   for (std::size_t b = 0; b < count; ++b) {
+    if (gap_[b] > lost_gap_[b]) {
+      lost_.push_back(static_cast<std::int32_t>(b));
+      continue;
+    }
     const std::int32_t i = i_[b], j = j_[b];
     for (int k = 0; k < 3; ++k) {
       motion.force[k][i] -= force_[k][b];
@@ -193,14 +202,14 @@ void BondBlock::collect(MotionBlock& motion) {
       motion.torque[k][j] += torque_j_[k][b];
     }
     shallowest = std::min(shallowest, gap_[b]);
-    if (gap_[b] > lost_gap_[b]) lost_.push_back(static_cast<std::int32_t>(b));
   }
   deepest_ = std::max(deepest_, -shallowest);
 }
 
 void BondBlock::advance(MotionBlock& motion) {
+  follow(motion);
   for (std::size_t first = 0; first < count_; first += lanes) {
-    move(motion, first);
+    move(first);
     load(first);
   }
   collect(motion);

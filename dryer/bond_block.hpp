@@ -39,7 +39,7 @@ class BondBlock {
   void add(const Contact& bond, std::int32_t i, std::int32_t j, const BondLaw& law, double a_i, double a_j,
            double lost_gap);
   void remove(std::size_t bond);  // the last one takes its place
-  // Gap, normal, histories and loads back into a bond; tag is its name from add().
+  // Gap, normal, histories and loads back into a bond.
   void store(std::size_t bond, Contact& contact) const;
 
   // Moves all bonds to the positions of the block, and adds their loads to force and torque. Bonds that are beyond
@@ -52,13 +52,15 @@ class BondBlock {
   std::int32_t second(std::size_t bond) const { return j_[bond]; }
 
  private:
-  void move(const MotionBlock& motion, std::size_t first);  // lanes bonds from `first` on
+  void follow(const MotionBlock& motion);
+  void move(std::size_t first);  // lanes bonds from `first` on
   void load(std::size_t first);
   void collect(MotionBlock& motion);
 
   std::size_t count_ = 0;
   std::vector<std::int32_t> i_, j_, lost_;
   std::vector<std::int64_t> born_;
+  Triple apart_, turn_i_, turn_j_;  // of the two ends now: x_j - x_i, m, and their rotations
   Triple separation_, normal_, sliding_, rolling_;
   std::vector<double> twisting_, gap_;
   std::vector<double> a_i_, a_j_;
