@@ -13,8 +13,6 @@ namespace crumble {
 
 namespace {
 
-double smallest(const std::vector<double>& radius) { return *std::min_element(radius.begin(), radius.end()); }
-
 // Six standard deviations of the approach of two particles within `time`, m.
 double approach(double diffusivity, double time) { return 6 * std::sqrt(4 * diffusivity * time); }
 
@@ -27,23 +25,23 @@ double Brownian::short_step(const DryingModel& model, double a, double contact_s
   return contact_step * drag / std::max(law.normal_stiffness(), law.k_s);
 }
 
-namespace {
-
-double margin(const DryingModel& model, double a, const BrownianControl& control) {
+Brownian::Scales Brownian::scales(const DryingModel& model, const Agglomerate& state, const BrownianControl& control) {
+  const double a = *std::min_element(state.particles.radius.begin(), state.particles.radius.end());
+  const double dt = short_step(model, a, control.contact_step);
   const double D = model.thermal_energy / drag_coefficient(model.viscosity, a);
-  return approach(D, std::ldexp(Brownian::short_step(model, a, control.contact_step), control.depth));
+  return {a, dt, approach(D, std::ldexp(dt, control.depth))};
 }
 
-}  // namespace
-
 Brownian::Brownian(const DryingModel& model, Agglomerate& state, std::uint64_t seed, const BrownianControl& control)
-    : Integrator(model, state,
-                 std::max(0.3, 1.5 * margin(model, smallest(state.particles.radius), control) /
-                                   smallest(state.particles.radius))),
+    : Brownian(model, state, seed, control, scales(model, state, control)) {}
+
+Brownian::Brownian(const DryingModel& model, Agglomerate& state, std::uint64_t seed, const BrownianControl& control,
+                   const Scales& scales)
+    : Integrator(model, state, std::max(0.3, 1.5 * scales.margin / scales.radius)),
       control_(control),
       path_(seed),
-      dt_(short_step(model, smallest(state.particles.radius), control.contact_step)),
-      margin_(margin(model, smallest(state.particles.radius), control)),
+      dt_(scales.short_step),
+      margin_(scales.margin),
       substeps_(1 << control.depth),
       ahead_(state.particles.size(), Vector6::Zero()),
       place_(state.particles.size(), -1) {

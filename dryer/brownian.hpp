@@ -38,6 +38,13 @@ class Brownian : public Integrator {
   double long_step() const { return dt_ * static_cast<double>(substeps_); }
 
  private:
+  struct Scales {
+    double radius, short_step, margin;  // smallest radius, m; s; how near another must be to be met in a long step, m
+  };
+  static Scales scales(const DryingModel& model, const Agglomerate& state, const BrownianControl& control);
+  Brownian(const DryingModel& model, Agglomerate& state, std::uint64_t seed, const BrownianControl& control,
+           const Scales& scales);
+
   // Particles that take short steps, one array a quantity; index: place in the block.
   struct Fast {
     std::vector<double> drag[2];   // dt/zeta, dt/zeta_r
