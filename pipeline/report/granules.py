@@ -9,6 +9,8 @@ import statistics
 import sys
 import textwrap
 
+from interval import half_width
+
 # What the paper gives, one realisation each. Contacts and coordination of the hollow one: 185 in the first description,
 # 183 in the evolution (3.18 = 2 * 183 / 115); of the compact one: coordination before loading (section 3.3).
 PAPER = {
@@ -18,7 +20,7 @@ PAPER = {
     "compact": {"title": "Pe = 1, N = 85", "d_c_nm": 132, "h_c_over_d_c": 0.44, "contacts": 177, "coordination": 4.16},
 }
 
-# Differences of means to full stiffness and a shorter step, found by `make verify` and kept.
+# Differences of means to contacts of full stiffness, found by `make verify` and kept.
 STORED = pathlib.Path(__file__).parent.parent / "verify" / "brownian.json"
 
 # key of the result, heading, format, key of its error in the report, whether that is a fraction of the value
@@ -30,14 +32,6 @@ COLUMNS = [
 ]
 
 
-# Student's t for a 95 % interval, by degrees of freedom.
-T95 = {1: 12.71, 2: 4.30, 3: 3.18, 4: 2.78, 5: 2.57, 6: 2.45, 7: 2.36, 8: 2.31, 9: 2.26, 11: 2.20, 14: 2.14, 19: 2.09}
-
-
-def t95(n):
-    return T95[max(k for k in T95 if k <= n - 1)]
-
-
 def largest_error(reports, key):
     """The largest of the runs, or None if any run has not estimated it."""
     values = [report["errors"].get(key, {}).get("value") for report in reports]
@@ -45,7 +39,8 @@ def largest_error(reports, key):
 
 
 def stored_errors(row):
-    return json.loads(STORED.read_text(encoding="utf-8")).get(row) if STORED.exists() else None
+    stored = json.loads(STORED.read_text(encoding="utf-8"))
+    return stored if row in stored["rows"] else None
 
 
 def error_cell(row, reports, mean, column):
@@ -89,10 +84,9 @@ def table(row, reports):
     if len(reports) > 1:
         total = ["", "", "", f"{sum(r['cpu_s'] for r in reports):.2f}"]
         rows.append(["mean"] + [column[2].format(mean) for column, mean in zip(COLUMNS, means)] + total)
-        spread = [statistics.stdev(r["results"][column[0]] for r in reports) for column in COLUMNS]
-        rows.append(["spread"] + [column[2].format(s) for column, s in zip(COLUMNS, spread)] + blank)
-        half = t95(len(reports)) / math.sqrt(len(reports))
-        rows.append(["+-95%"] + [column[2].format(half * s) for column, s in zip(COLUMNS, spread)] + blank)
+        for name, of in (("spread", statistics.stdev), ("+-95%", half_width)):
+            figures = [of([r["results"][column[0]] for r in reports]) for column in COLUMNS]
+            rows.append([name] + [column[2].format(figure) for column, figure in zip(COLUMNS, figures)] + blank)
     rows.append(["error"] + [error_cell(row, reports, mean, c) for c, mean in zip(COLUMNS, means)] + blank)
     rows.append(["paper"] + [paper_cell(row, column) for column in COLUMNS] + blank)
     if len(reports) > 2:

@@ -21,6 +21,8 @@ DRYER = "build/release/bin/dryer"
 SCENE = "pipeline/scenes/hollow.toml"
 RESULTS = "pipeline/results/verify"
 
+sys.path.insert(0, str(ROOT / "pipeline/report"))  # interval.py: the intervals of the checks are those of the reports
+
 # Checks that measure CPU seconds run without the companion run that estimates the error, and keep two frames only.
 BARE = {"error.estimate": "false", "output.frames": "0"}
 
