@@ -236,6 +236,20 @@ TEST(Brownian, same_seed_same_bits_and_other_seeds_other_paths) {
   EXPECT_NE(last(1), last(2));
 }
 
+TEST(Inertial, without_thermal_energy_no_noise_is_drawn) {
+  const auto last = [](double thermal_energy, std::uint64_t seed) {
+    DryingModel model = diffusing();
+    model.thermal_energy = thermal_energy;
+    Agglomerate s = start(5, 60e-9, 1);
+    Inertial integrator(model, s, 1e-12, seed);
+    for (int k = 0; k < 20; ++k) integrator.step(1);
+    return s.state.position[3];
+  };
+  EXPECT_EQ(last(0, 1), last(0, 2));
+  EXPECT_EQ(last(0, 1), start(5, 60e-9, 1).state.position[3]) << "nor anything else, far from the surface";
+  EXPECT_NE(last(kT, 1), last(kT, 2));
+}
+
 TEST(Inertial, velocity_of_a_free_particle_has_its_share_of_kT) {
   const int number = 100;
   Agglomerate s = lonely(number);

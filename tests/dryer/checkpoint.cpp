@@ -14,8 +14,8 @@ using crumble::test::Folder;
 namespace {
 
 DryingScene small_scene(const std::string& kind) {
-  const bool brownian = kind == "brownian";
-  const std::string method = brownian ? "overdamped" : kind;
+  const bool brownian = kind.ends_with("_with_noise");
+  const std::string method = kind.substr(0, kind.find('_'));
   const std::string text = std::string("[particle]\nradius = 10e-9\nnumber = 20\nbrownian_motion = ") +
                            (brownian ? "true" : "false") +
                            "\n[droplet]\nradius = 120e-9\nlifetime = 2e-7\n"
@@ -61,7 +61,8 @@ TEST_P(Restart, continues_to_the_same_bits_from_any_step) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Integrators, Restart, ::testing::Values("overdamped", "inertial", "brownian"));
+INSTANTIATE_TEST_SUITE_P(Integrators, Restart,
+                         ::testing::Values("overdamped", "inertial", "overdamped_with_noise", "inertial_with_noise"));
 
 TEST(Checkpoint, of_another_scene_version_or_program_is_refused_with_the_difference) {
   const Folder folder;

@@ -1,6 +1,6 @@
 """Ctrl-C leaves a checkpoint; the same command goes on from it to the same bits, with 1 or 2 threads.
 
-interrupt.py DRYER SCENE
+interrupt.py DRYER SCENE [KEY=VALUE ...]
 """
 
 import os
@@ -14,7 +14,7 @@ import numpy
 from program_runs import contents, interrupt, seconds
 
 dryer, scene = sys.argv[1:3]
-options = ["--set", "error.estimate=false", "--set", "integrator.largest_displacement=0.05"]
+options = [word for setting in ["error.estimate=false", *sys.argv[3:]] for word in ("--set", setting)]
 
 
 def same(a, b):
