@@ -1,7 +1,5 @@
 #include "breaker/breakup_checkpoint.hpp"
 
-#include <filesystem>
-
 #include "common/io/frame_checkpoint.hpp"
 
 namespace crumble {
@@ -11,17 +9,6 @@ namespace {
 std::string piece_name(const char* what, std::size_t k) { return what + std::string("_") + std::to_string(k); }
 
 }  // namespace
-
-BreakupCheckpoint::BreakupCheckpoint(const std::string& output, CheckpointOwner owner)
-    : path_(output + ".checkpoint"),
-      owner_(std::move(owner)),
-      found_(std::filesystem::exists(path_) && std::filesystem::exists(output + ".tmp")) {
-  if (found_) stored_ = load_checkpoint(path_, owner_);
-}
-
-void BreakupCheckpoint::require() const {
-  if (!found_) throw no_checkpoint(path_);
-}
 
 void BreakupCheckpoint::save(const BreakupRun& run, const Progression& progression) const {
   const BreakupRun::Memory m = run.memory();
@@ -40,29 +27,27 @@ void BreakupCheckpoint::save(const BreakupRun& run, const Progression& progressi
   out.reals["progression"] = {progression.next_sample, progression.next_frame};
   out.integers["last_step"] = {progression.last_step};
   if (progression.companion) out.reals["companion"] = {*progression.companion};
-  save_checkpoint(path_, owner_, out);
+  store(out);
 }
 
 void BreakupCheckpoint::resume(BreakupRun& run, Progression& progression) const {
   BreakupRun::Memory m;
-  m.numbers = stored_.real("run");
-  m.counts = stored_.integer("run_counts");
-  m.whole = restore_frame(stored_, "whole");
-  const auto pieces = static_cast<std::size_t>(stored_.integer("pieces").at(0));
+  m.numbers = stored().real("run");
+  m.counts = stored().integer("run_counts");
+  m.whole = restore_frame(stored(), "whole");
+  const auto pieces = static_cast<std::size_t>(stored().integer("pieces").at(0));
   for (std::size_t k = 0; k < pieces; ++k) {
-    m.frames.push_back(restore_frame(stored_, piece_name("piece", k)));
-    m.members.push_back(stored_.integer(piece_name("member", k)));
-    m.told.push_back(stored_.integer(piece_name("told", k)));
+    m.frames.push_back(restore_frame(stored(), piece_name("piece", k)));
+    m.members.push_back(stored().integer(piece_name("member", k)));
+    m.told.push_back(stored().integer(piece_name("told", k)));
     m.integrators.push_back(
-        {stored_.real(piece_name("integrator", k)), stored_.integer(piece_name("integrator_counts", k))});
+        {stored().real(piece_name("integrator", k)), stored().integer(piece_name("integrator_counts", k))});
   }
   run.recall(m);
-  progression.next_sample = stored_.real("progression").at(0);
-  progression.next_frame = stored_.real("progression").at(1);
-  progression.last_step = stored_.integer("last_step").at(0);
-  if (stored_.reals.contains("companion")) progression.companion = stored_.real("companion").at(0);
+  progression.next_sample = stored().real("progression").at(0);
+  progression.next_frame = stored().real("progression").at(1);
+  progression.last_step = stored().integer("last_step").at(0);
+  if (stored().reals.contains("companion")) progression.companion = stored().real("companion").at(0);
 }
-
-void BreakupCheckpoint::remove() const { std::filesystem::remove(path_); }
 
 }  // namespace crumble

@@ -16,25 +16,12 @@ struct Progression {
   std::optional<double> companion;         // critical stress of the companion, Pa; -1: it did not break
 };
 
-// OUTPUT.checkpoint beside the unfinished output.
-class BreakupCheckpoint {
+class BreakupCheckpoint : public OutputCheckpoint {
  public:
-  // Finds a checkpoint of `output`, if there is one; throws InputError if it belongs to another scene or version.
-  BreakupCheckpoint(const std::string& output, CheckpointOwner owner);
+  using OutputCheckpoint::OutputCheckpoint;
 
-  bool found() const { return found_; }
-  const std::string& path() const { return path_; }
-  // Throws InputError if none was found.
-  void require() const;
   void resume(BreakupRun& run, Progression& progression) const;
   void save(const BreakupRun& run, const Progression& progression) const;
-  void remove() const;
-
- private:
-  std::string path_;
-  CheckpointOwner owner_;
-  bool found_ = false;
-  Checkpoint stored_;
 };
 
 }  // namespace crumble

@@ -1,22 +1,9 @@
 #include "dryer/drying_checkpoint.hpp"
 
-#include <filesystem>
-
 #include "common/io/frame_checkpoint.hpp"
 #include "dryer/start.hpp"
 
 namespace crumble {
-
-DryingCheckpoint::DryingCheckpoint(const std::string& output, CheckpointOwner owner)
-    : path_(output + ".checkpoint"),
-      owner_(std::move(owner)),
-      found_(std::filesystem::exists(path_) && std::filesystem::exists(output + ".tmp")) {
-  if (found_) stored_ = load_checkpoint(path_, owner_);
-}
-
-void DryingCheckpoint::require() const {
-  if (!found_) throw no_checkpoint(path_);
-}
 
 void DryingCheckpoint::save(const DryingRun& run, const std::optional<DryingOutcome>& companion, int frames,
                             std::int64_t last_frame_step) const {
@@ -28,29 +15,27 @@ void DryingCheckpoint::save(const DryingRun& run, const std::optional<DryingOutc
   out.integers["integrator_counts"] = memory.counts;
   out.integers["active"].assign(memory.active.begin(), memory.active.end());
   if (companion) out.reals["companion"] = {companion->d_c, companion->h_c_over_d_c, companion->contacts};
-  save_checkpoint(path_, owner_, out);
+  store(out);
 }
 
 DryingRun DryingCheckpoint::resume(const DryingScene& scene) const {
   Agglomerate state =
       random_suspension(scene.radius, scene.model.material.density, scene.model.droplet.initial_radius, scene.seed);
-  state.state = restore_frame(stored_, "state");
+  state.state = restore_frame(stored(), "state");
   Integrator::Memory memory;
-  memory.numbers = stored_.real("integrator");
-  memory.counts = stored_.integer("integrator_counts");
-  memory.active.assign(stored_.integer("active").begin(), stored_.integer("active").end());
+  memory.numbers = stored().real("integrator");
+  memory.counts = stored().integer("integrator_counts");
+  memory.active.assign(stored().integer("active").begin(), stored().integer("active").end());
   return DryingRun(scene, 1, std::move(state), memory);
 }
 
 std::optional<DryingOutcome> DryingCheckpoint::companion() const {
-  if (!stored_.reals.contains("companion")) return std::nullopt;
-  const auto& c = stored_.real("companion");
+  if (!stored().reals.contains("companion")) return std::nullopt;
+  const auto& c = stored().real("companion");
   return DryingOutcome{c.at(0), c.at(1), c.at(2)};
 }
 
-int DryingCheckpoint::frames() const { return static_cast<int>(stored_.integer("frames").at(0)); }
-std::int64_t DryingCheckpoint::last_frame_step() const { return stored_.integer("frames").at(1); }
-
-void DryingCheckpoint::remove() const { std::filesystem::remove(path_); }
+int DryingCheckpoint::frames() const { return static_cast<int>(stored().integer("frames").at(0)); }
+std::int64_t DryingCheckpoint::last_frame_step() const { return stored().integer("frames").at(1); }
 
 }  // namespace crumble

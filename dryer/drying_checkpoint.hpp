@@ -9,16 +9,9 @@
 
 namespace crumble {
 
-// OUTPUT.checkpoint beside the unfinished output.
-class DryingCheckpoint {
+class DryingCheckpoint : public OutputCheckpoint {
  public:
-  // Finds a checkpoint of `output`, if there is one; throws InputError if it belongs to another scene or version.
-  DryingCheckpoint(const std::string& output, CheckpointOwner owner);
-
-  bool found() const { return found_; }
-  const std::string& path() const { return path_; }
-  // Throws InputError if none was found.
-  void require() const;
+  using OutputCheckpoint::OutputCheckpoint;
 
   DryingRun resume(const DryingScene& scene) const;
   std::optional<DryingOutcome> companion() const;
@@ -27,13 +20,6 @@ class DryingCheckpoint {
 
   void save(const DryingRun& run, const std::optional<DryingOutcome>& companion, int frames,
             std::int64_t last_frame_step) const;
-  void remove() const;
-
- private:
-  std::string path_;
-  CheckpointOwner owner_;
-  bool found_ = false;
-  Checkpoint stored_;
 };
 
 }  // namespace crumble

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include "common/io/errors.hpp"
 #include "common/io/hdf5.hpp"
 #include "common/io/in_child.hpp"
 
@@ -59,12 +60,6 @@ Checkpoint read_restart(const std::filesystem::path& path, const CheckpointOwner
 
 }  // namespace
 
-InputError no_checkpoint(const std::filesystem::path& path) {
-  return InputError(
-      fmt::format("--restart: there is no {} with its unfinished output; without --restart the run begins at its start",
-                  path.string()));
-}
-
 const std::vector<double>& Checkpoint::real(const std::string& name) const { return find(reals, name); }
 const std::vector<std::int64_t>& Checkpoint::integer(const std::string& name) const { return find(integers, name); }
 
@@ -85,5 +80,20 @@ Checkpoint load_checkpoint(const std::filesystem::path& path, const CheckpointOw
   in_child(path, [&] { return read_restart(path, owner), std::string(); });
   return read_restart(path, owner);
 }
+
+OutputCheckpoint::OutputCheckpoint(const std::string& output, CheckpointOwner owner)
+    : path_(output + ".checkpoint"),
+      owner_(std::move(owner)),
+      found_(std::filesystem::exists(path_) && std::filesystem::exists(output + ".tmp")) {
+  if (found_) stored_ = load_checkpoint(path_, owner_);
+}
+
+void OutputCheckpoint::require() const {
+  if (found_) return;
+  throw InputError(fmt::format(
+      "--restart: there is no {} with its unfinished output; without --restart the run begins at its start", path_));
+}
+
+void OutputCheckpoint::remove() const { std::filesystem::remove(path_); }
 
 }  // namespace crumble

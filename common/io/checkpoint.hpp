@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "common/io/errors.hpp"
 
 namespace crumble {
 
@@ -33,7 +32,27 @@ void save_checkpoint(const std::filesystem::path& path, const CheckpointOwner& o
 // a checkpoint.
 Checkpoint load_checkpoint(const std::filesystem::path& path, const CheckpointOwner& owner);
 
-// What to say to who asked for a checkpoint that is not there, or whose unfinished output is gone.
-InputError no_checkpoint(const std::filesystem::path& path);
+// OUTPUT.checkpoint beside the unfinished OUTPUT.tmp: what the checkpoints of all programs share.
+class OutputCheckpoint {
+ public:
+  // Finds a checkpoint of `output`, if there is one; throws InputError if it belongs to another scene or version.
+  OutputCheckpoint(const std::string& output, CheckpointOwner owner);
+
+  bool found() const { return found_; }
+  const std::string& path() const { return path_; }
+  // Throws InputError, saying what was looked for, if none was found.
+  void require() const;
+  void remove() const;
+
+ protected:
+  void store(const Checkpoint& checkpoint) const { save_checkpoint(path_, owner_, checkpoint); }
+  const Checkpoint& stored() const { return stored_; }
+
+ private:
+  std::string path_;
+  CheckpointOwner owner_;
+  bool found_;
+  Checkpoint stored_;
+};
 
 }  // namespace crumble
