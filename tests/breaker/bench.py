@@ -1,8 +1,8 @@
 """Time against error of the breaker: tolerances, ramp rates and integrators, 2 to 115 particles.
 
-    bench.py BREAKER AGGLOMERATE [LARGEST]      (LARGEST: skip clusters with more particles)
+    bench.py BREAKER AGGLOMERATE [SMALLEST LARGEST]      (only clusters of so many particles)
 
-Times are CPU seconds of one core. The error is that of the critical stress against the finest run of the same ramp.
+The granules are those of data/, dried at 10 nm and scaled to 100 nm. Times are CPU seconds of one core. The error is that of the critical stress against the finest run of the same ramp.
 """
 import json
 import os
@@ -13,41 +13,38 @@ import tempfile
 
 from coil import coil
 
-HERE = pathlib.Path(__file__).resolve().parent
-SCENE = HERE.parents[1] / "pipeline" / "scenes" / "breakup.toml"
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SCENE = ROOT / "pipeline" / "scenes" / "breakup.toml"
 PAPER = 5000  # Pa/s at 1 Pa s
 
 
-def dried(name):
-    """Centres in nm of a cluster of tests/hydro/dried."""
-    rows = [line.split() for line in (HERE.parent / "hydro" / "dried" / name).read_text().splitlines()
-            if not line.startswith("#")]
-    count = int(rows[0][0])
-    return [[100 * float(v) for v in row] for row in rows[1:1 + count]]
+def agglomerate_of(centres, agglomerate, folder):
+    """File of 100 nm spheres at the given centres in nm, bonded where they touch."""
+    table, start = folder / "centres.csv", folder / "start.h5"
+    table.write_text("\n".join(["x,y,z"] + [",".join(f"{v:.12g}" for v in x) for x in centres]) + "\n")
+    start.unlink(missing_ok=True)
+    subprocess.run([agglomerate, "import", str(table), "-o", str(start), "--radius", "100", "--contact-tolerance", "0.005"],
+                   check=True, capture_output=True)
+    return start
 
 
 def main():
     breaker, agglomerate = (str(pathlib.Path(p).resolve()) for p in sys.argv[1:3])
-    largest = int(sys.argv[3]) if len(sys.argv) > 3 else 115
+    smallest, largest = map(int, sys.argv[3:5]) if len(sys.argv) > 4 else (2, 115)
     os.environ.update(OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
     # rate over the paper's, tolerances; the explicit integrator where it takes minutes at most
     plan = {"doublet 2": ([[0, 0, 0], [200, 0, 0]], [(1, [0.03, 0.01, 0.003, 0.001]), (100, [0.01, 0.001, "explicit"])]),
             "coil 20": (coil(20), [(1, [0.03, 0.01, 0.003, 0.001]), (1000, [0.03, 0.01, 0.001, "explicit"])]),
-            "compact 85": (dried("compact_85.txt"), [(1, [0.03, 0.01, 0.003]), (10, [0.01])]),
-            "hollow 115": (dried("hollow_115.txt"), [(1, [0.03, 0.01, 0.003]), (10, [0.01])])}
+            "compact 85": (ROOT / "data" / "compact.h5", [(1, [0.03, 0.01, 0.003]), (10, [0.01])]),
+            "hollow 115": (ROOT / "data" / "hollow.h5", [(1, [0.03, 0.01, 0.003]), (10, [0.01])])}
     print("| cluster | rate / 5000 Pa/s | control | CPU s | steps | breaks at Pa | error % |")
     print("|---|---|---|---|---|---|---|")
     with tempfile.TemporaryDirectory(prefix="bench-breaker-") as folder:
         folder = pathlib.Path(folder)
         for name, (centres, ramps) in plan.items():
-            if int(name.split()[-1]) > largest:
+            if not smallest <= int(name.split()[-1]) <= largest:
                 continue
-            table = folder / "centres.csv"
-            table.write_text("\n".join(["x,y,z"] + [",".join(f"{v:.12g}" for v in x) for x in centres]) + "\n")
-            start = folder / "start.h5"
-            start.unlink(missing_ok=True)
-            subprocess.run([agglomerate, "import", str(table), "-o", str(start), "--radius", "100",
-                            "--contact-tolerance", "0.005"], check=True, capture_output=True)
+            start = agglomerate_of(centres, agglomerate, folder) if isinstance(centres, list) else centres
             for rate, controls in ramps:
                 rows = []
                 for control in controls:

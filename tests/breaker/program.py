@@ -84,15 +84,21 @@ class Program(unittest.TestCase):
 
     def test_viscosity_changes_nothing_when_the_protocol_goes_with_it(self):
         start = self.agglomerate(coil(5))
-        first, _, _ = self.breakup(start, "error.estimate=false")
+        first, run, _ = self.breakup(start, "error.estimate=false")
+        self.assertRegex(run.stderr, r"rigid but for elastic contacts up to [\d.]+ Pa \(\d+ steps\); from here")
         second, _, _ = self.breakup(start, "error.estimate=false", "fluid.viscosity=1e-3", output="thin.h5")
         ratio = second["results"]["critical_stress_pa"] / first["results"]["critical_stress_pa"]
         self.assertAlmostEqual(ratio, 1, delta=1e-5)
 
     def test_interrupted_run_goes_on_to_the_same_bits(self):
-        start = self.agglomerate(coil(16))
-        settings = ("error.estimate=false", "integrator.tolerance=0.002", "protocol.stages=rest 0.1; ramp 5000",
-                    "breakup.until_stable=true", "breakup.stable_strain=5")
+        self.goes_on(self.agglomerate(coil(16)), "error.estimate=false", "integrator.tolerance=0.002",
+                     "protocol.stages=rest 0.1; ramp 5000", "breakup.until_stable=true", "breakup.stable_strain=5")
+
+    def test_interrupted_explicit_run_goes_on_to_the_same_bits(self):
+        self.goes_on(self.agglomerate(coil(8)), "error.estimate=false", "integrator.method=explicit",
+                     "protocol.stages=ramp 1e7")
+
+    def goes_on(self, start, *settings):
         whole, cut = self.folder / "whole.h5", self.folder / "cut.h5"
         duration = seconds([BREAKER, *self.command(start, *settings, output=whole.name)])
         for number, part in ((signal.SIGINT, 0.15), (signal.SIGTERM, 0)):
@@ -187,6 +193,15 @@ class Program(unittest.TestCase):
         text = self.refused(start, "integrator.method=explicit", "integrator.step=1e-6", "hydrodynamics.method=fts")
         self.assertIn("beyond the stability limit", text)
         self.assertIn("1.49e-07", text)  # 2/1.35e7 per second: far field, 1 Pa s
+
+    def test_an_unstable_explicit_run_says_where_and_keeps_its_state(self):
+        run = self.run_it(*self.command(self.agglomerate(coil(8)), "integrator.method=explicit", "integrator.step=1e-4",
+                                        "integrator.allow_unstable=true", "protocol.stages=ramp 5e6",
+                                        "error.estimate=false"))
+        self.assertEqual(run.returncode, 1)
+        self.assertRegex(run.stderr, r"step \d+ at t = .* has become unstable")
+        self.assertTrue((self.folder / "breakup.h5.checkpoint").exists())
+        self.assertFalse((self.folder / "breakup.h5").exists())
 
     def test_explicit_program_agrees(self):
         start = self.agglomerate(DOUBLET)
