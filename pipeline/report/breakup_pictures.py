@@ -56,20 +56,22 @@ def strip(path, out, count):
             largest = numpy.bincount(label).argmax()
             snapshots.append((stress[k], x - x[label == largest].mean(axis=0),
                               numpy.bincount(pairs.ravel(), minlength=len(radius))))
-    # Pieces of the end may be far away: what counts is that every panel has one scale.
-    half = 1.15 * max(abs(x[:, [0, 2]]).max() for _, x, _ in (snapshots[:-1] or snapshots)) + radius.max()
-    figure, panels = pyplot.subplots(1, len(snapshots), figsize=(2.6 * len(snapshots), 3.1), squeeze=False)
+    # One scale for all panels; pieces of the end may be far away and are cut off.
+    wide, high = (1.1 * max(abs(x[:, axis]).max() for _, x, _ in (snapshots[:-1] or snapshots)) + 2 * radius.max()
+                  for axis in (0, 2))
+    figure, panels = pyplot.subplots(1, len(snapshots), squeeze=False,
+                                     figsize=(2.6 * len(snapshots), 2.6 * high / wide + 0.5))
     colours = matplotlib.colormaps["cividis"]
     most = max(8, max(contacts.max() for _, _, contacts in snapshots))
     for axes, (value, x, contacts) in zip(panels[0], snapshots):
         draw(axes, x, radius, contacts, lambda c: colours(c / most))
-        axes.set(xlim=(-half, half), ylim=(-half, half), aspect="equal", xticks=[], yticks=[], title=f"{value:.0f} Pa")
+        axes.set(xlim=(-wide, wide), ylim=(-high, high), aspect="equal", xticks=[], yticks=[], title=f"{value:.0f} Pa")
         for side in axes.spines.values():
             side.set_visible(False)
     first = panels[0][0]
-    bar = 10 ** numpy.floor(numpy.log10(half))
-    first.plot([-0.95 * half, -0.95 * half + bar], [-0.95 * half] * 2, color=BLACK, linewidth=2)
-    first.text(-0.95 * half, -0.9 * half, f"{bar:g} nm", fontsize=8)
+    bar = 10 ** numpy.floor(numpy.log10(wide))
+    first.plot([-0.95 * wide, -0.95 * wide + bar], [-0.95 * high] * 2, color=BLACK, linewidth=2)
+    first.text(-0.95 * wide, -0.9 * high, f"{bar:g} nm", fontsize=8)
     shades = matplotlib.cm.ScalarMappable(matplotlib.colors.Normalize(0, most), colours)
     figure.colorbar(shades, ax=list(panels[0]), fraction=0.02, pad=0.01, label="contacts")
     figure.savefig(out, dpi=150, bbox_inches="tight")

@@ -35,8 +35,8 @@ def main():
     # rate over the paper's, tolerances; the explicit integrator where it takes minutes at most
     plan = {"doublet 2": ([[0, 0, 0], [200, 0, 0]], [(1, [0.03, 0.01, 0.003, 0.001]), (100, [0.01, 0.001, "explicit"])]),
             "coil 20": (coil(20), [(1, [0.03, 0.01, 0.003, 0.001]), (1000, [0.03, 0.01, 0.001, "explicit"])]),
-            "compact 85": (ROOT / "data" / "compact.h5", [(1, [0.03, 0.01, 0.003]), (10, [0.01])]),
-            "hollow 115": (ROOT / "data" / "hollow.h5", [(1, [0.03, 0.01, 0.003]), (10, [0.01])])}
+            "compact 85": (ROOT / "data" / "compact.h5", [(1, [0.02, 0.01, 0.005]), (10, [0.01])]),
+            "hollow 115": (ROOT / "data" / "hollow.h5", [(1, [0.02, 0.01, 0.005]), (10, [0.01])])}
     print("| cluster | rate / 5000 Pa/s | control | CPU s | steps | breaks at Pa | error % |")
     print("|---|---|---|---|---|---|---|")
     with tempfile.TemporaryDirectory(prefix="bench-breaker-") as folder:
