@@ -13,7 +13,9 @@ double implicit_breaks(const std::vector<Vector3>& centres, Rung rung) {
   const BreakupModel model = elongation(rung);
   const Protocol ramp({{0, 5000}});
   Implicit run(model, ramp, g.particles.radius, g.state, 0.01);
-  return critical_stress(run, ramp);
+  const double stress = critical_stress(run, ramp);
+  std::printf("breaks at %.1f Pa\n", stress);
+  return stress;
 }
 
 // Slow explicit run; the rigid prediction F_po/(6 pi a^2 20/21) with touching centres is 12,600 Pa.
