@@ -134,13 +134,19 @@ int main(int argc, char** argv) {
   fmt::print(
       "| bond | stickiness nm | B2/B2 hard spheres | the same at detailed balance | energy kT | pull-off pN |\n");
   fmt::print("|---|---|---|---|---|---|\n");
-  for (const double factor : {1.0, 1.25, 1.5, 2.0}) {
-    const Jkr law(softened({}, a, kT, factor), a);
+  const auto row = [D](const std::string& name, const Material& material) {
+    const Jkr law(material, a);
     const PairStatistics s = pair_statistics(law, kT, D);
-    fmt::print("| softening {:g} | {:.3f} | {:.3f} | {:.3f} | {:.2f} | {:.0f} |\n", factor, 1e9 * s.stickiness,
+    fmt::print("| {} | {:.2f} | {:.3f} | {:.3f} | {:.2f} | {:.0f} |\n", name, 1e9 * s.stickiness,
                second_virial_ratio(s.stickiness, a), second_virial_ratio(s.well, a), s.rupture / kT,
                1e12 * law.pull_off_force);
-  }
+  };
+  for (const double factor : {1.0, 1.25, 1.5, 2.0})
+    row(fmt::format("softening {:g}", factor), softened({}, a, kT, factor));
+  Material same_energy;  // energy ~ (surface energy)^(5/3) E^(-2/3)
+  same_energy.youngs_modulus /= 8;
+  same_energy.surface_energy *= std::pow(8, -0.4);
+  row("E/8 at the same energy", same_energy);
   const double odds = surface_over_volume(40'000'000) * pair_statistics(Jkr({}, a), kT, D).stickiness;
   fmt::print("\nexact law: pair bonded {:.4f} of the time, elementary lifetime {:.3f} ns\n\n", odds / (1 + odds),
              1e9 * pair_statistics(Jkr({}, a), kT, D).lifetime);
