@@ -1,10 +1,11 @@
 // Time and error of every rung of the hydrodynamic ladder, side by side.
 //
-//   bench_hydro [folder for CSV files] [largest number of spheres]
+//   bench_hydro [folder for CSV files, "" for none] [largest number of spheres] [tables: convergence ladder ...]
 //
 // Times are the shortest of several; those of one thread are processor time, those of more are wall clock.
 #include <fmt/format.h>
 #include <omp.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <ctime>
@@ -12,6 +13,8 @@
 #include <fstream>
 #include <iostream>
 #include <numbers>
+#include <random>
+#include <set>
 
 #include "common/hydro/dense_hydrodynamics.hpp"
 #include "common/hydro/lagged_hydrodynamics.hpp"
@@ -19,6 +22,7 @@
 #include "common/hydro/multipole.hpp"
 #include "common/hydro/rigid_body.hpp"
 #include "elastic_network.hpp"
+#include "lattice.hpp"
 
 using namespace crumble;
 using namespace crumble::testing;
@@ -132,21 +136,37 @@ Cost dense_cost(const Spheres& s, const HydroModel& model, double at_least = 0.2
 // elongation.
 struct Numbers {
   double drag, tension;
+  Eigen::ArrayXd turned;  // the largest tension in each of 200 random orientations
 };
+
+Eigen::ArrayXd tension_turned(const Eigen::MatrixXd& by_strain) {
+  Eigen::ArrayXd result(200);
+  std::mt19937_64 engine(1);
+  std::normal_distribution<double> normal;
+  for (double& t : result) {
+    const Eigen::Quaterniond q(normal(engine), normal(engine), normal(engine), normal(engine));
+    const Eigen::Matrix3d R = q.normalized().toRotationMatrix();
+    t = (by_strain * strain_components(R * Vector3(0.5, 0, -0.5).asDiagonal() * R.transpose())).maxCoeff();
+  }
+  return result;
+}
 
 Numbers numbers(const DriedCluster& c, const HydroModel& model) {
   const RigidBodyResponse r =
       rigid_body_response(DenseHydrodynamics(c.spheres, 1, model), c.spheres.position, Vector3::Zero());
-  const double pi = std::numbers::pi;
-  return {r.drag.topLeftCorner<3, 3>().trace() / (18 * pi),
-          worst_orientation(bond_tension(c.spheres, c.bonds, r.free_loads)) / (6 * pi)};
+  const Eigen::MatrixXd tension = bond_tension(c.spheres, c.bonds, r.free_loads) / (6 * std::numbers::pi);
+  return {r.drag.topLeftCorner<3, 3>().trace() / (18 * std::numbers::pi), worst_orientation(tension),
+          tension_turned(tension)};
 }
+
+// Clusters of tests/hydro/dried and the order of multipoles that stands for the truth.
+const std::vector<std::pair<std::string, int>> dried = {{"compact_85", 5}, {"granule_85", 5}, {"hollow_115", 4}};
 
 void ladder(const std::string& folder) {
   Table table(
       folder, "ladder", "The ladder on dried clusters; errors against the last row of each.",
       {"method", "spheres", "threads", "assembly ms", "factor ms", "solve ms", "drag", "error %", "N_max", "error %"});
-  for (const auto& [cluster, highest] : {std::pair{"compact_85", 5}, std::pair{"hollow_115", 4}}) {
+  for (const auto& [cluster, highest] : dried) {
     const DriedCluster c = dried_cluster(cluster);
     omp_set_num_threads(omp_get_num_procs());
     const Numbers exact = numbers(c, of_order(highest));
@@ -165,16 +185,29 @@ void ladder(const std::string& folder) {
 }
 
 void cut_off(const std::string& folder) {
-  Table table(folder, "cut_off",
-              "Relative lubrication: error in % of N_max against multipoles (L = 4), by the pairs it takes.",
-              {"pairs closer than (a)", "compact 85", "hollow 115"});
-  const DriedCluster compact = dried_cluster("compact_85"), hollow = dried_cluster("hollow_115");
+  std::vector<std::string> heads = {"pairs closer than (a)"};
+  std::vector<DriedCluster> clusters;
+  std::vector<Numbers> exact;
   omp_set_num_threads(omp_get_num_procs());
-  const double exact_compact = numbers(compact, of_order(4)).tension,
-               exact_hollow = numbers(hollow, of_order(4)).tension;
+  for (const auto& [name, highest] : dried) {
+    heads.insert(heads.end(), {fmt::format("{}, L = {}", name, highest), "rms", "worst"});
+    clusters.push_back(dried_cluster(name));
+    exact.push_back(numbers(clusters.back(), of_order(highest)));
+  }
+  Table table(folder, "cut_off",
+              "Relative lubrication: error in % of N_max against multipoles of order L, by the pairs it takes; rms and "
+              "worst\nerror of the largest tension in 200 single orientations.",
+              heads);
   const auto row = [&](const std::string& name, const HydroModel& model) {
-    table.row({name, percent(numbers(compact, model).tension / exact_compact - 1),
-               percent(numbers(hollow, model).tension / exact_hollow - 1)});
+    std::vector<std::string> cells = {name};
+    for (std::size_t k = 0; k < clusters.size(); ++k) {
+      const Numbers found = numbers(clusters[k], model);
+      const Eigen::ArrayXd turned = found.turned / exact[k].turned - 1;
+      cells.insert(cells.end(), {percent(found.tension / exact[k].tension - 1),
+                                 fmt::format("{:.2f}", 100 * std::sqrt(turned.square().mean())),
+                                 fmt::format("{:.2f}", 100 * turned.abs().maxCoeff())});
+    }
+    table.row(cells);
   };
   row("none (fts)", on(Rung::fts));
   for (const double range : {2.01, 2.1, 2.25, 2.5, 3.0, 4.0, 6.0})
@@ -244,33 +277,59 @@ double exponent(const std::vector<double>& n, const std::vector<double>& t) {
   return A.colPivHouseholderQr().solve(b)[1];
 }
 
+double memory_gigabytes() {
+  return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e9;
+}
+
+// The lower triangle in place and the smaller factor of its motion block: (11 N)^2 + (6 N)^2 numbers.
+double dense_gigabytes(int n) { return 8e-9 * (121.0 + 36.0) * n * n; }
+
 void growth(const std::string& folder, int most) {
-  Table table(folder, "growth",
-              "Growth with the number of spheres, relative lubrication. Product: the pair sum without a matrix.",
-              {"spheres", "threads", "assembly ms", "factor ms", "solve ms", "product ms", "ns per pair"});
-  for (const int threads : {1, omp_get_num_procs()}) {
+  Table table(
+      folder, "growth",
+      "Growth with the number of spheres, compact clusters, relative lubrication. Product: the pair sum without "
+      "a matrix; iterated: a mobility\nsolve with ambient flow by MatrixFreeHydrodynamics to 1e-8.",
+      {"spheres", "threads", "assembly ms", "factor ms", "solve ms", "product ms", "ns per pair", "iterated ms",
+       "iterations"});
+  for (const int threads : std::set{1, omp_get_num_procs()}) {
     omp_set_num_threads(threads);
-    std::vector<double> n, assembly, factor, solve, product;
+    struct Series {
+      std::vector<double> n, time;
+      std::string add(int count, double t) {
+        n.push_back(count);
+        time.push_back(t);
+        return milliseconds(t);
+      }
+      std::string power() const { return fmt::format("N^{:.2f}", exponent(n, time)); }
+    } assembly, factor, solve, product, iterated;
     for (const int count : {50, 100, 200, 500, 1000, 2000}) {
       if (count > most) break;
-      // One core would take minutes for the largest: its row is that of all cores only.
-      if (count > 1000 && threads == 1) break;
+      const HydroModel model = on(Rung::fts_relative_lubrication);
       const Spheres s = grown({count, 0, 1e9, 12, 0, 1});
-      const Cost cost = dense_cost<double>(s, on(Rung::fts_relative_lubrication));
+      std::vector<std::string> cells = {std::to_string(count), std::to_string(threads)};
+      if (dense_gigabytes(count) < 0.7 * memory_gigabytes()) {
+        const Cost cost = dense_cost<double>(s, model);
+        cells.insert(cells.end(), {assembly.add(count, cost.assembly), factor.add(count, cost.factor),
+                                   solve.add(count, cost.solve)});
+      } else {
+        cells.insert(cells.end(), 3, "does not fit");
+      }
       const FarFieldSum sum(s);
       const Eigen::VectorXd q = wave(11 * count);
       Eigen::VectorXd w(q.size());
       const double t = seconds([&] { sum.apply(q.data(), w.data()); });
-      table.row({std::to_string(count), std::to_string(threads), milliseconds(cost.assembly), milliseconds(cost.factor),
-                 milliseconds(cost.solve), milliseconds(t), fmt::format("{:.2f}", 1e9 * t / count / count)});
-      n.push_back(count);
-      assembly.push_back(cost.assembly);
-      factor.push_back(cost.factor);
-      solve.push_back(cost.solve);
-      product.push_back(t);
+      cells.insert(cells.end(), {product.add(count, t), fmt::format("{:.2f}", 1e9 * t / count / count)});
+      int iterations = 0;
+      const double whole = seconds([&] {
+        const MatrixFreeHydrodynamics hydro(s, 1, model);
+        hydro.mobility(wave(6 * count), simple_shear(1));
+        iterations = hydro.iterations();
+      });
+      cells.insert(cells.end(), {iterated.add(count, whole), std::to_string(iterations)});
+      table.row(cells);
     }
-    const auto power = [&](const std::vector<double>& t) { return fmt::format("N^{:.2f}", exponent(n, t)); };
-    table.row({"growth", std::to_string(threads), power(assembly), power(factor), power(solve), power(product), ""});
+    table.row({"growth", std::to_string(threads), assembly.power(), factor.power(), solve.power(), product.power(), "",
+               iterated.power(), ""});
   }
 }
 
@@ -294,19 +353,6 @@ void convergence(const std::string& folder) {
                  fmt::format("{:.5f}", worst_orientation(bond_tension(s, touching_pairs(s), r.free_loads)) /
                                            (6 * std::numbers::pi))});
     }
-}
-
-// The innermost sites of a cubic lattice of touching spheres.
-Spheres lattice_ball(int n) {
-  std::vector<Vector3> x;
-  const int half = static_cast<int>(std::ceil(std::cbrt(n)));
-  for (int i = -half; i <= half; ++i)
-    for (int j = -half; j <= half; ++j)
-      for (int k = -half; k <= half; ++k) x.emplace_back(2 * i, 2 * j, 2 * k);
-  std::stable_sort(x.begin(), x.end(),
-                   [](const Vector3& a, const Vector3& b) { return a.squaredNorm() < b.squaredNorm(); });
-  x.resize(static_cast<std::size_t>(n));
-  return unit_spheres(x);
 }
 
 // Rigid drag without a matrix; the dense answer where one fits. The drag is that of 6 right-hand sides.
@@ -351,11 +397,15 @@ void without_a_matrix(const std::string& folder, int most) {
 int main(int argc, char** argv) {
   const std::string folder = argc > 1 ? argv[1] : "";
   const int most = argc > 2 ? std::atoi(argv[2]) : 10000;
+  const std::vector<std::string> wanted(argv + std::min(argc, 3), argv + argc);
   if (!folder.empty()) std::filesystem::create_directories(folder);
-  convergence(folder);
-  ladder(folder);
-  cut_off(folder);
-  lagged(folder);
-  growth(folder, std::min(most, 2000));
-  without_a_matrix(folder, most);
+  const auto table = [&](const char* name, const auto& print) {
+    if (wanted.empty() || std::find(wanted.begin(), wanted.end(), name) != wanted.end()) print();
+  };
+  table("convergence", [&] { convergence(folder); });
+  table("ladder", [&] { ladder(folder); });
+  table("cut_off", [&] { cut_off(folder); });
+  table("lagged", [&] { lagged(folder); });
+  table("growth", [&] { growth(folder, std::min(most, 2000)); });
+  table("matrix_free", [&] { without_a_matrix(folder, most); });
 }

@@ -17,15 +17,6 @@ constexpr double round_off = 1e-12;
 
 Eigen::MatrixXd full(const MobilityMatrix& M) { return M.lower.selfadjointView<Eigen::Lower>(); }
 
-Eigen::Matrix3d some_rotation() {
-  return Eigen::AngleAxisd(1.1, Vector3(0.3, -0.7, 0.6).normalized()).toRotationMatrix();
-}
-
-Spheres transformed(Spheres s, const Eigen::Matrix3d& Q) {
-  for (auto& x : s.position) x = Q * x;
-  return s;
-}
-
 TEST(StrainBasis, IsOrthonormalAndReversible) {
   for (int k = 0; k < 5; ++k) {
     const Eigen::Matrix3d B = strain_tensor(Vector5::Unit(k));
@@ -128,80 +119,6 @@ TEST(FarField, MobilityInvertsResistance) {
   EXPECT_LT((motion.stresslet - loads.stresslet).norm(), 1e-10 * loads.stresslet.norm());
 }
 
-TEST(FarField, RotatesReflectsPermutesAndScalesWithTheConfiguration) {
-  const Spheres s = random_spheres(8, 6, 11, 1, 2);
-  const LinearFlow flow = {Vector3(1, 2, 3), (Eigen::Matrix3d() << 1, 2, 0, 0.5, -3, 1, 4, 1, 2).finished()};
-  const RigidBodyResponse r = rigid_body_response(DenseHydrodynamics(s, 1, {}), s.position, Vector3::Zero());
-  const Eigen::VectorXd loads = r.loads(flow);
-  for (const double sign : {1.0, -1.0}) {
-    const Eigen::Matrix3d Q = sign * some_rotation();  // torques are pseudo-vectors
-    const LinearFlow turned = {Q * flow.velocity, Q * flow.gradient * Q.transpose()};
-    const Spheres t = transformed(s, Q);
-    const Eigen::VectorXd found =
-        rigid_body_response(DenseHydrodynamics(t, 1, {}), t.position, Vector3::Zero()).loads(turned);
-    for (int i = 0; i < 8; ++i) {
-      EXPECT_LT((found.segment<3>(6 * i) - Q * loads.segment<3>(6 * i)).norm(), 1e-11 * loads.norm());
-      EXPECT_LT((found.segment<3>(6 * i + 3) - sign * Q * loads.segment<3>(6 * i + 3)).norm(), 1e-11 * loads.norm());
-    }
-  }
-  Spheres permuted = s;
-  std::swap(permuted.position[0], permuted.position[5]);
-  std::swap(permuted.radius[0], permuted.radius[5]);
-  const Eigen::VectorXd swapped =
-      rigid_body_response(DenseHydrodynamics(permuted, 1, {}), permuted.position, Vector3::Zero()).loads(flow);
-  EXPECT_LT((swapped.segment<6>(0) - loads.segment<6>(30)).norm(), 1e-11 * loads.norm());
-  const Spheres large = scaled(s, 1e-7);  // SI: forces scale as length^2, torques as length^3
-  const Eigen::VectorXd si =
-      rigid_body_response(DenseHydrodynamics(large, 1e-3, {}), large.position, Vector3::Zero()).loads(flow);
-  for (int i = 0; i < 8; ++i) {
-    EXPECT_LT((si.segment<3>(6 * i) * 1e17 - loads.segment<3>(6 * i)).norm(), 1e-11 * loads.norm());
-    EXPECT_LT((si.segment<3>(6 * i + 3) * 1e24 - loads.segment<3>(6 * i + 3)).norm(), 1e-11 * loads.norm());
-  }
-}
-
-TEST(FarField, DecaysLikeAStokesletOfTheWholeCluster) {
-  // A distant sphere sees the force on a small cluster only: u = F (1 + ee)/(8 pi r) + O(r^-2).
-  Spheres s = triangle();
-  const double r = 1e4;
-  s.position.emplace_back(0, 0, r);
-  s.radius.push_back(1);
-  Eigen::VectorXd loads = Eigen::VectorXd::Zero(24);
-  for (int i = 0; i < 3; ++i) loads.segment<3>(6 * i) = Vector3(-1, 0, -1);
-  const Eigen::VectorXd u = DenseHydrodynamics(s, 1, {}).mobility(loads, {}).velocity;
-  EXPECT_NEAR(u[18] * 8 * pi * r / 3, 1, 2 / r);
-  EXPECT_NEAR(u[20] * 8 * pi * r / 6, 1, 2 / r);
-}
-
-TEST(RigidBody, SumOfLoadsVanishesOnTheFreeBodyAndIsTheDragOnTheHeldOne) {
-  const Spheres s = random_spheres(15, 7, 4, 1, 3);
-  const RigidBodyResponse r = rigid_body_response(DenseHydrodynamics(s, 1, {}), s.position, Vector3(1, 2, 3));
-  Vector3 force = Vector3::Zero(), torque = Vector3::Zero();
-  for (int i = 0; i < 15; ++i) {
-    const Vector3 f = r.free_loads.col(3).segment<3>(6 * i);
-    force += f;
-    torque += r.free_loads.col(3).segment<3>(6 * i + 3) + (s.position[i] - r.centre).cross(f);
-  }
-  EXPECT_LT(force.norm(), 1e-11 * r.free_loads.norm());
-  EXPECT_LT(torque.norm(), 1e-11 * r.free_loads.norm());
-  EXPECT_LT((r.drag - r.drag.transpose()).norm(), 1e-12 * r.drag.norm());
-}
-
-// Reciprocal theorem: the force by a strain on the held body is the stresslet of the moving body.
-TEST(RigidBody, StrainAndMotionAreReciprocal) {
-  const Spheres s = random_spheres(15, 7, 4, 1, 3);
-  const DenseHydrodynamics hydro(s, 1, {});
-  const RigidBodyResponse r = rigid_body_response(hydro, s.position, Vector3::Zero());
-  Eigen::MatrixXd translation = Eigen::MatrixXd::Zero(90, 1);
-  for (int i = 0; i < 15; ++i) translation(6 * i) = 1;
-  const SphereLoads loads = hydro.relative_resistance(translation, Eigen::MatrixXd::Zero(5, 1));
-  Vector5 stresslet = Vector5::Zero();  // of the body: of each sphere, and the moments of the forces
-  for (int i = 0; i < 15; ++i)
-    stresslet += loads.stresslet.middleRows(5 * i, 5) +
-                 strain_along(s.position[i]).transpose() * loads.force_torque.middleRows(6 * i, 3);
-  // F_x = strain_drag E, S = -(strain_drag row)^T U: power of both problems agrees (Lorentz).
-  EXPECT_LT((stresslet + r.strain_drag.row(0).transpose()).norm(), 1e-11 * stresslet.norm());
-}
-
 double tension_of_doublet(const RigidBodyResponse& r) { return r.loads(planar_elongation(1))[6] / (6 * pi); }
 
 TEST(FarField, DoubletHasTheKnownErrorsOfTheMethod) {
@@ -214,19 +131,33 @@ TEST(FarField, DoubletHasTheKnownErrorsOfTheMethod) {
   EXPECT_LT(r.drag(1, 1) / (6 * pi), 1.449322);
 }
 
-TEST(RigidBody, DragLiesBetweenAnEnclosedAndTheEnclosingSphere) {
-  const double h = std::sqrt(3.0);
-  const std::vector<std::pair<Spheres, double>> cases = {{chain(2), 2},
-                                                         {chain(4), 4},
-                                                         {triangle(), 1 + 2 / h},
-                                                         {tetrahedron(), 1 + std::sqrt(1.5)},
-                                                         {octahedron(), 1 + std::sqrt(2.0)}};
-  for (const auto& [s, enclosing] : cases) {
-    const RigidBodyResponse r = rigid_body_response(DenseHydrodynamics(s, 1, {}), s.position, Vector3::Zero());
-    const Eigen::Vector3d drag =
-        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(r.drag.topLeftCorner<3, 3>()).eigenvalues() / (6 * pi);
-    EXPECT_GT(drag[0], 1);
-    EXPECT_LT(drag[2], enclosing);
+// Errors in per cent of the drag and of the largest force on one sphere in elongation, without lubrication and with
+// that of all pairs as printed. Computed once with independent tables of two spheres: 0.2 % apart.
+TEST(FarField, SmallClustersHaveTheKnownErrorsOfTheMethod) {
+  struct Case {
+    Spheres s;
+    double drag, force, lubricated_drag, lubricated_force;
+  };
+  HydroModel printed{Rung::fts_lubrication};
+  printed.lubrication_range = 4;
+  const auto response = [](const Spheres& s, const HydroModel& m) {
+    return rigid_body_response(DenseHydrodynamics(s, 1, m), s.position, Vector3::Zero());
+  };
+  const auto drag = [](const RigidBodyResponse& r) { return r.drag.topLeftCorner<3, 3>().trace(); };
+  const auto force = [](const RigidBodyResponse& r) {
+    const Eigen::VectorXd loads = r.loads(planar_elongation(1));
+    double largest = 0;
+    for (Eigen::Index i = 0; i < loads.size(); i += 6) largest = std::max(largest, loads.segment<3>(i).norm());
+    return largest;
+  };
+  for (const Case& c : {Case{chain(2), -0.6, -6.6, 0, 0}, Case{tetrahedron(), -0.3, -13, 2.4, -4.6},
+                        Case{octahedron(), -0.4, -19, 4.8, -3.5}}) {
+    const RigidBodyResponse exact = response(c.s, {Rung::multipole, 8}), far = response(c.s, {}),
+                            near = response(c.s, printed);
+    EXPECT_NEAR(100 * (drag(far) / drag(exact) - 1), c.drag, 0.1);
+    EXPECT_NEAR(100 * (force(far) / force(exact) - 1), c.force, 0.3);
+    EXPECT_NEAR(100 * (drag(near) / drag(exact) - 1), c.lubricated_drag, 0.2);
+    EXPECT_NEAR(100 * (force(near) / force(exact) - 1), c.lubricated_force, 0.2);
   }
 }
 

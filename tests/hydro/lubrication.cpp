@@ -157,11 +157,32 @@ TEST(Lubrication, PrintedFormDragsACompactClusterMoreThanItsEnclosingSphere) {
     EXPECT_GT(mean_drag(rung, 2.5), doublet);
 }
 
+// The compact granule of data/compact.h5 (85 spheres, coordination 5.7).
+TEST(Lubrication, PrintedFormDragsADriedGranuleHalfAsMuchAgain) {
+  const Spheres s = dried_cluster("granule_85").spheres;
+  Vector3 centre = Vector3::Zero();
+  for (const Vector3& x : s.position) centre += x / s.size();
+  double enclosing = 0;
+  for (const Vector3& x : s.position) enclosing = std::max(enclosing, (x - centre).norm() + 1);
+  const auto drag = [&](const HydroModel& m) { return response(s, m).drag.topLeftCorner<3, 3>().trace() / (18 * pi); };
+  const double far = drag(model(Rung::fts)), printed = drag(model(Rung::fts_lubrication));
+  EXPECT_LT(far, enclosing);
+  EXPECT_LT(std::abs(drag(model(Rung::fts_relative_lubrication)) / far - 1), 1e-8);
+  EXPECT_GT(printed, enclosing);   // the known failure, asserted as known
+  EXPECT_GT(printed, 1.46 * far);  // 1.46 to 1.70 by density, by an independent code
+}
+
 // Largest bond tension of dried clusters in elongation, in three fixed orientations and in the worst one, against
-// multipoles of order 3 (0.3 % from order 4 here). The far field alone is off by up to 5 %, the printed sum by up to 15
-// %.
+// multipoles of order 3 (1 % from order 4 here). The far field alone is off by up to 5 %, of the granule by 12 %; the
+// printed sum by up to 15 %.
 TEST(Lubrication, RelativeFormGivesTheBondTensionOfDriedClustersWithinThreePercent) {
-  for (const char* name : {"compact_85", "hollow_115"}) {
+  struct Case {
+    const char* name;
+    double any_orientation;  // bound of the error in the fixed ones
+    bool printed_fails;      // in tension; of the densest cluster it is the drag that fails (above)
+  };
+  for (const auto& [name, any_orientation, printed_fails] :
+       {Case{"compact_85", 0.03, true}, Case{"granule_85", 0.08, false}, Case{"hollow_115", 0.03, true}}) {
     const DriedCluster c = dried_cluster(name);
     const auto tensions = [&](const HydroModel& m) {
       const Eigen::MatrixXd T = bond_tension(c.spheres, c.bonds, response(c.spheres, m).free_loads);
@@ -176,10 +197,14 @@ TEST(Lubrication, RelativeFormGivesTheBondTensionOfDriedClustersWithinThreePerce
     };
     const Eigen::Vector4d exact = tensions(model(Rung::multipole));
     const auto error = [&](Rung rung, double range) {
-      return (tensions(model(rung, range)).array() / exact.array() - 1).abs().maxCoeff();
+      return Eigen::Array4d((tensions(model(rung, range)).array() / exact.array() - 1).abs());
     };
-    EXPECT_LT(error(Rung::fts_relative_lubrication, HydroModel{}.lubrication_range), 0.03) << name;
-    EXPECT_GT(error(Rung::fts_lubrication, 4), 0.10) << name;
+    const Eigen::Array4d relative = error(Rung::fts_relative_lubrication, HydroModel{}.lubrication_range);
+    EXPECT_LT(relative[3], 0.03) << name;
+    EXPECT_LT(relative.maxCoeff(), any_orientation) << name;
+    if (printed_fails) {
+      EXPECT_GT(error(Rung::fts_lubrication, 4).maxCoeff(), 0.10) << name;
+    }
   }
 }
 
