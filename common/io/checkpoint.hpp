@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-
 namespace crumble {
 
 // Arrays by name, in the program's own units, stored to the bit under /restart.
