@@ -9,7 +9,7 @@ namespace crumble {
 struct Droplet {
   double initial_radius = 0;   // R0, m
   double lifetime = 0;         // tau, s
-  double surface_tension = 0;  // sigma, N/m
+  double surface_tension = 0;  // sigma, N/m; times wetting_factor() where the liquid does not wet the particles
 
   // R(t) = sqrt(R0^2 - k t), k = R0^2/tau; 0 after the lifetime.                          (paper, Eq. 7)
   double radius(double time) const {
@@ -26,6 +26,17 @@ struct Droplet {
   // Speed of the receding front, v = -dR/dt = k/(2 R), m/s.                               (paper, Eq. 24)
   double front_speed(double R) const { return initial_radius * initial_radius / (2 * lifetime * R); }
 };
+
+// Largest force with which a liquid that meets the particle at the contact angle theta holds it back at the surface, in
+// that on a perfectly wetted one (theta = 0):
+//   max over phi of  sin(phi) sin(phi + theta) = cos^2(theta/2)
+// at the angle phi of the contact line on the sphere; flat surface, no weight. Eq. 8 times this factor has the right
+// maximum for any theta, as Eq. 8 has for theta = 0; where along the way out of the liquid it is reached stays that of
+// Eq. 8. Source: Scheludko & Nikolov 1975. theta: rad, 0 to pi; result: 1 to 0.
+inline double wetting_factor(double contact_angle) {
+  const double c = std::cos(contact_angle / 2);
+  return c * c;
+}
 
 // Whether the surface cuts the particle; a droplet that is inside the particle (r + R <= a) does not.
 inline bool surface_cuts(double a, double r, double R) { return r < R + a && r > R - a && r + R > a; }

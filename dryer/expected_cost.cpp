@@ -31,12 +31,12 @@ ExpectedCost expected_cost(const DryingScene& s) {
     return {steps, 0.05e-6 * N * steps};
   }
   if (s.model.thermal_energy > 0) {
-    const double a = *std::min_element(s.radius.begin(), s.radius.end());
+    const double a = s.smallest_radius();
     const double step = Brownian::short_step(effective_model(s), a, s.brownian.contact_step);
     const double steps = s.model.droplet.lifetime / std::ldexp(step, s.brownian.depth);
     return {steps, 2e-6 * N * steps};
   }
-  const double advance = s.model.droplet.initial_radius / s.radius.front() / s.control.largest_displacement;
+  const double advance = s.model.droplet.initial_radius / s.smallest_radius() / s.control.largest_displacement;
   const double steps = advance / 0.8 + 5.5 * N;
   return {steps, 3e-6 * std::pow(N, 0.23) * N * steps};
 }

@@ -3,8 +3,10 @@
 #include <fmt/core.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "dryer/drag.hpp"
+#include "dryer/particle_radii.hpp"
 #include "dryer/water_surface_tension.hpp"
 #include "dryer/water_viscosity.hpp"
 
@@ -27,11 +29,34 @@ std::string only_one_of(const Scene& scene, const std::vector<std::string>& keys
   return found;
 }
 
-std::size_t particle_number(const Scene& scene) {
+// A parameter that only some distribution has: there it is required, elsewhere it has no meaning.
+double of_distribution(const Scene& scene, const std::string& key, const std::string& distribution) {
+  const std::string& chosen = scene.choice("particle.distribution");
+  if (chosen == distribution && !scene.is_set(key))
+    throw scene.error("particle.distribution", fmt::format("needs {}", key));
+  if (chosen != distribution && scene.is_set(key))
+    throw scene.error(key, fmt::format("has a meaning only with particle.distribution = \"{}\"", distribution));
+  return chosen == distribution ? scene.real(key) : 0;
+}
+
+RadiusDistribution radius_distribution(const Scene& scene) {
+  using Kind = RadiusDistribution::Kind;
+  const std::string& chosen = scene.choice("particle.distribution");
+  return {chosen == "lognormal" ? Kind::lognormal
+          : chosen == "bimodal" ? Kind::bimodal
+                                : Kind::equal,
+          scene.real("particle.radius"), of_distribution(scene, "particle.geometric_standard_deviation", "lognormal"),
+          of_distribution(scene, "particle.second_radius", "bimodal"),
+          of_distribution(scene, "particle.second_share", "bimodal")};
+}
+
+std::vector<double> particle_radii(const Scene& scene) {
   const double a = scene.real("particle.radius"), R0 = scene.real("droplet.radius");
-  if (a >= R0)
-    throw scene.error("particle.radius", fmt::format("no particle fits into droplet.radius = {:g} m ({})", R0,
-                                                     scene.where("droplet.radius")));
+  const RadiusDistribution distribution = radius_distribution(scene);
+  for (const char* key : {"particle.radius", "particle.second_radius"})
+    if (scene.is_set(key) && scene.real(key) >= R0)
+      throw scene.error(
+          key, fmt::format("no particle fits into droplet.radius = {:g} m ({})", R0, scene.where("droplet.radius")));
   const std::string key =
       only_one_of(scene, {"particle.number", "particle.solids_fraction"}, "the number of particles");
   const double capacity = std::pow(R0 / a, 3);  // N at 100 % solids
@@ -40,13 +65,27 @@ std::size_t particle_number(const Scene& scene) {
   if (number < 1)
     throw scene.error(key, fmt::format("is less than one particle; one alone is a fraction of {:.3g}", 1 / capacity));
   // Random sequential addition jams at 38 % of the volume that centres can take; long before that it crawls.
-  if (number > 0.3 * capacity)
+  const auto refuse = [&](double fraction) {
     throw scene.error(key, fmt::format("fills {:.0f} % of the droplet with solids; a random start is possible up to "
                                        "30 %, that is {:.0f} particles",
-                                       100 * number / capacity, 0.3 * capacity));
+                                       100 * fraction, 0.3 * number / fraction));
+  };
+  const bool equal = distribution.kind == RadiusDistribution::Kind::equal;
+  if ((equal || !counted) && number > 0.3 * capacity) refuse(number / capacity);
   if (number > 2147483647)
     throw scene.error(key, fmt::format("means {:.3g} particles; they are numbered up to 2147483647", number));
-  return static_cast<std::size_t>(number);
+  const auto seed = static_cast<std::uint64_t>(scene.integer("run.seed"));
+  std::vector<double> radius = counted ? radii_by_number(distribution, static_cast<std::size_t>(number), seed)
+                                       : radii_by_volume(distribution, scene.real(key) * R0 * R0 * R0, seed);
+  double solids = 0;
+  for (const double each : radius) solids += each * each * each / (R0 * R0 * R0);
+  if (radius.empty()) throw scene.error(key, "is less than one particle");
+  if (solids > 0.3) refuse(solids);
+  if (radius.front() >= R0)
+    throw scene.error("particle.geometric_standard_deviation",
+                      fmt::format("draws a particle of {:.3g} m, which does not fit into droplet.radius = {:g} m",
+                                  radius.front(), R0));
+  return radius;
 }
 
 // The number, or water's law at the temperature of the scene.
@@ -82,10 +121,11 @@ double lifetime(const Scene& scene, const ProcessInputs& given) {
 
 ProcessInputs process_inputs(const Scene& scene) {
   ProcessInputs p;
-  p.number = particle_number(scene);
+  p.radius = particle_radii(scene);
   p.viscosity = liquid_property(scene, "liquid.viscosity", water_viscosity, water_viscosity_from, water_viscosity_to);
   p.surface_tension = liquid_property(scene, "liquid.surface_tension", water_surface_tension,
                                       water_surface_tension_from, water_surface_tension_to);
+  p.contact_angle = scene.real("liquid.contact_angle") * std::numbers::pi / 180;
   if (scene.flag("particle.brownian_motion")) p.thermal_energy = boltzmann_constant * scene.real("liquid.temperature");
   p.lifetime = lifetime(scene, p);
   return p;

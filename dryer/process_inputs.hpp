@@ -1,21 +1,22 @@
 // From what a scene says about the process to what the equations need.
 #pragma once
 
-#include <cstddef>
+#include <vector>
 
 #include "common/io/parameters.hpp"
 
 namespace crumble {
 
 struct ProcessInputs {
-  std::size_t number = 0;      // N
+  std::vector<double> radius;  // of the N particles, descending, m
   double viscosity = 0;        // mu, Pa s
   double surface_tension = 0;  // sigma, N/m
+  double contact_angle = 0;    // theta, rad
   double thermal_energy = 0;   // kT, J; 0 without Brownian motion
   double lifetime = 0;         // tau, s
 };
 
-// N is given as such or as a fraction of solids phi = N (a/R0)^3. The speed of drying is given as one of
+// N is given as such or as a fraction of solids phi = sum a^3/R0^3. The speed of drying is given as one of
 //   tau                                          lifetime
 //   k = R0^2/tau,        R^2 = R0^2 - k t        evaporation constant (of the radius squared)    (paper, Eq. 7)
 //   v = k/(2 R0)                                 speed of the front at the start                 (paper, Eq. 24)

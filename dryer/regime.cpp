@@ -13,7 +13,7 @@ namespace crumble {
 
 DryingRegime drying_regime(const DryingScene& s) {
   const Droplet& droplet = s.model.droplet;
-  const double a = s.radius.front(), R0 = droplet.initial_radius;
+  const double a = s.nominal_radius, R0 = droplet.initial_radius;
   double solids = 0;  // sum of a^3
   for (const double radius : s.radius) solids += radius * radius * radius;
   DryingRegime r;
@@ -45,15 +45,22 @@ std::string DryingRegime::words() const {
 
 std::vector<std::string> describe(const DryingScene& s) {
   const DryingRegime r = drying_regime(s);
-  const double a = s.radius.front(), R0 = s.model.droplet.initial_radius, mu = s.model.viscosity;
+  const double a = s.nominal_radius, R0 = s.model.droplet.initial_radius, mu = s.model.viscosity;
   const double sigma = s.model.droplet.surface_tension, force = capillary_force(sigma, a, 0);
   const double m = 4.0 / 3.0 * std::numbers::pi * a * a * a * s.model.material.density;
   const BondLaw law(s.model.contact, s.model.material, a, a);
   std::vector<std::string> lines;
   lines.push_back(fmt::format("N = {} particles of {:g} nm in a droplet of {:g} nm, phi = {:.2f} % solids",
                               s.radius.size(), a * 1e9, R0 * 1e9, 100 * r.solids_fraction));
-  lines.push_back(
-      fmt::format("liquid: mu = {:.4g} Pa s, sigma = {:.4g} N/m; D = {:.3g} m2/s", mu, sigma, r.diffusivity));
+  if (s.smallest_radius() < s.largest_radius())
+    lines.push_back(
+        fmt::format("their radii lie between {:.4g} and {:.4g} nm; D, Pe and the time scales are those of {:g} nm",
+                    s.smallest_radius() * 1e9, s.largest_radius() * 1e9, a * 1e9));
+  lines.push_back(fmt::format(
+      "liquid: mu = {:.4g} Pa s, sigma = {:.4g} N/m{}; D = {:.3g} m2/s", mu, s.surface_tension,
+      s.contact_angle > 0 ? fmt::format(", {:.4g} of it pulls at the contact angle", wetting_factor(s.contact_angle))
+                          : "",
+      r.diffusivity));
   lines.push_back(fmt::format("drying: tau = {:.4g} s, k = {:.4g} m2/s, Pe = {}", s.model.droplet.lifetime,
                               r.evaporation_constant,
                               std::isinf(r.peclet) ? "infinity" : fmt::format("{:.4g}", r.peclet)));
@@ -76,7 +83,10 @@ void report_regime(Report& report, const DryingScene& s) {
   report.result("inputs.number", static_cast<std::int64_t>(s.radius.size()));
   report.result("inputs.solids_fraction", r.solids_fraction);
   report.result("inputs.viscosity_pa_s", s.model.viscosity);
-  report.result("inputs.surface_tension_n_per_m", s.model.droplet.surface_tension);
+  report.result("inputs.smallest_radius_nm", s.smallest_radius() * 1e9);
+  report.result("inputs.largest_radius_nm", s.largest_radius() * 1e9);
+  report.result("inputs.surface_tension_n_per_m", s.surface_tension);
+  report.result("inputs.contact_angle_rad", s.contact_angle);
   report.result("inputs.diffusivity_m2_per_s", r.diffusivity);
   report.result("inputs.peclet", std::isinf(r.peclet) ? Report::Value(nullptr) : Report::Value(r.peclet));
   report.result("inputs.lifetime_s", s.model.droplet.lifetime);

@@ -43,7 +43,7 @@ void fill_left_out(Report& report, const DryingScene& scene, const DryingRun& ru
         fmt::format("short steps: {:.0f} % of the particle time went in long steps, far from any contact", spared));
   }
   if (!scene.inertial) {
-    const double a = scene.radius.front(), mu = scene.model.viscosity;
+    const double a = scene.largest_radius(), mu = scene.model.viscosity;
     const double inertia = 2 * scene.model.material.density * a * a / (9 * mu);
     report.left_out.push_back(fmt::format("inertia: velocities relax within {:.2g} s, the liquid lives {:.2g} s",
                                           inertia, scene.model.droplet.lifetime));

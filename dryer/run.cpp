@@ -1,7 +1,5 @@
 #include "dryer/run.hpp"
 
-#include <algorithm>
-
 #include "dryer/brownian.hpp"
 #include "dryer/inertial.hpp"
 #include "dryer/pair_statistics.hpp"
@@ -30,8 +28,7 @@ std::unique_ptr<Integrator> make_integrator(const DryingScene& scene, const Dryi
 DryingModel effective_model(const DryingScene& scene) {
   DryingModel model = scene.model;
   if (scene.softens_contacts())
-    model.material = softened(model.material, *std::min_element(scene.radius.begin(), scene.radius.end()),
-                              model.thermal_energy, scene.softening);
+    model.material = softened(model.material, scene.smallest_radius(), model.thermal_energy, scene.softening);
   return model;
 }
 

@@ -13,13 +13,16 @@ namespace crumble {
 DryingScene drying_scene(const Scene& scene) {
   const ProcessInputs process = process_inputs(scene);
   DryingScene s;
-  const double a = scene.real("particle.radius");
-  s.radius.assign(process.number, a);
+  s.nominal_radius = scene.real("particle.radius");
+  s.radius = process.radius;
   s.model.material = {scene.real("material.youngs_modulus"), scene.real("material.poisson_ratio"),
                       scene.real("material.surface_energy"), scene.real("material.density")};
   s.model.viscosity = process.viscosity;
   s.model.thermal_energy = process.thermal_energy;
-  s.model.droplet = {scene.real("droplet.radius"), process.lifetime, process.surface_tension};
+  s.model.droplet = {scene.real("droplet.radius"), process.lifetime,
+                     process.surface_tension * wetting_factor(process.contact_angle)};
+  s.surface_tension = process.surface_tension;
+  s.contact_angle = process.contact_angle;
   ContactChoice& c = s.model.contact;
   c.normal = scene.choice("contact.law") == "jkr" ? NormalLaw::jkr : NormalLaw::cundall_strack;
   c.stiffness_factor = scene.real("contact.stiffness_factor");
@@ -43,6 +46,7 @@ DryingScene drying_scene(const Scene& scene) {
                       "\"inertial\"");
 
   if (s.inertial) {
+    const double a = s.smallest_radius();
     const Particles one{{a}, {4.0 / 3.0 * std::numbers::pi * a * a * a * s.model.material.density}, {0}, {0}};
     const double recommended = Inertial::recommended_step(s.model, one);
     s.step = scene.is_set("integrator.step") ? scene.real("integrator.step") : recommended;

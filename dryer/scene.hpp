@@ -13,7 +13,10 @@ namespace crumble {
 const ParameterTable& drying_parameters();
 
 struct DryingScene {
-  std::vector<double> radius;  // one a particle, m
+  double nominal_radius = 0;   // a of the scene: of Pe, D; equal to all of the following unless they are distributed, m
+  std::vector<double> radius;  // one a particle, descending, m
+  double surface_tension = 0;  // sigma of the liquid, N/m; the model's has the factor of the contact angle
+  double contact_angle = 0;    // theta, rad
   DryingModel model;
   std::uint64_t seed = 1;
   bool inertial = false;
@@ -21,6 +24,8 @@ struct DryingScene {
   OverdampedControl control;
   BrownianControl brownian;
   double softening = 1;  // of the contacts while particles diffuse
+  double smallest_radius() const { return radius.back(); }
+  double largest_radius() const { return radius.front(); }
   bool softens_contacts() const { return softening > 1 && model.thermal_energy > 0 && !inertial; }
   int frames = 0;
   bool estimate_error = true;

@@ -7,11 +7,21 @@ const ParameterTable& drying_parameters() {
   using P = Parameter;
   static const ParameterTable table{
       {"particle",
-       "The primary particles: equal spheres.",
-       {P::real("radius", "m", "Radius a").above(0),
+       "The primary particles: spheres, equal unless particle.distribution says otherwise.",
+       {P::real("radius", "m", "Radius a; lognormal: the median; bimodal: of the first kind").above(0),
+        P::choice("distribution", {"equal", "lognormal", "bimodal"},
+                  "Of the radii by number. lognormal: within three standard deviations of ln a")
+            .by_default("equal"),
+        P::real("geometric_standard_deviation", "", "lognormal: sigma_g, exp of the standard deviation of ln a")
+            .above(1)
+            .at_most(2)
+            .optional(),
+        P::real("second_radius", "m", "bimodal: radius of the second kind").above(0).optional(),
+        P::real("second_share", "", "bimodal: share of the second kind by number").above(0).below(1).optional(),
         P::integer("number", "How many, N; or particle.solids_fraction").at_least(1).at_most(2147483647).optional(),
         P::real("solids_fraction", "",
-                "Volume of the particles in that of the droplet at the start: N = fraction (R0/a)^3, rounded")
+                "Volume of the particles in that of the droplet at the start: N = fraction (R0/a)^3, rounded; of "
+                "distributed radii as many as come nearest to it")
             .above(0)
             .below(1)
             .optional(),
@@ -35,7 +45,12 @@ const ParameterTable& drying_parameters() {
                 "Surface tension sigma. The default is the paper's reduced value; water's is 400 times as large")
             .at_least(0)
             .or_word({"water"})
-            .by_default(1.75e-4)}},
+            .by_default(1.75e-4),
+        P::real("contact_angle", "degree",
+                "Contact angle theta of the liquid on the particles: the capillary force of Eq. 8 times cos^2(theta/2)")
+            .at_least(0)
+            .below(180)
+            .by_default(0)}},
       {"droplet",
        "The droplet: R(t)^2 = R0^2 - k t (Eq. 7). How fast it dries is said by exactly one of the last four keys.",
        {P::real("radius", "m", "Radius R0 at the start").above(0),

@@ -39,6 +39,18 @@ TEST(CapillaryForce, is_the_derivative_of_its_energy_and_acts_only_on_what_the_s
   }
 }
 
+// The force on a sphere pulled out through a flat surface is 2 pi sigma a sin(phi) sin(phi + theta) with the contact
+// line at the angle phi; its largest value, searched for, is that of the law.
+TEST(CapillaryForce, of_a_contact_angle_is_the_largest_that_the_meniscus_can_bear) {
+  EXPECT_EQ(wetting_factor(0), 1);  // Eq. 8
+  for (const double theta : {0.0, 0.4, std::numbers::pi / 2, 2.5}) {
+    double largest = 0;
+    for (double phi = 0; phi < std::numbers::pi - theta; phi += 1e-4)
+      largest = std::max(largest, std::sin(phi) * std::sin(phi + theta));
+    EXPECT_NEAR(wetting_factor(theta), largest, 1e-8);  // (1e-4)^2 of the search
+  }
+}
+
 TEST(Drag, gives_the_paper_its_diffusivity_and_capillary_speed_limit) {
   EXPECT_NEAR(diffusivity(300, 1e-3, a), 2.2e-11, 0.05e-11);  // Table 2
   EXPECT_NEAR(capillary_force(sigma, a, 0) / drag_coefficient(1e-3, a), sigma / (3 * 1e-3), 1e-15);

@@ -84,6 +84,13 @@ TEST(DryingInputs, one_property_may_be_water_s_and_the_other_given) {
   EXPECT_EQ(s.model.droplet.surface_tension, 1.75e-4);
 }
 
+TEST(DryingInputs, a_contact_angle_weakens_the_capillary_force_and_leaves_the_liquid_its_surface_tension) {
+  const DryingScene s = brownian("lifetime = 2.1e-3", "[liquid]\ncontact_angle = 60\n");
+  EXPECT_NEAR(s.model.droplet.surface_tension, 0.75 * 1.75e-4, 1.75e-4 * round_off);
+  EXPECT_EQ(s.surface_tension, 1.75e-4);
+  EXPECT_EQ(brownian("lifetime = 2.1e-3").model.droplet.surface_tension, 1.75e-4);
+}
+
 TEST(DryingRegime, names_what_the_peclet_number_decides) {
   const auto words = [](const std::string& droplet) { return drying_regime(brownian(droplet)).words(); };
   EXPECT_NE(words("peclet = 1").find("diffusion-dominated"), std::string::npos);
