@@ -59,7 +59,7 @@ bool Brownian::is_dry(std::int32_t p) const {
 void Brownian::step(double latest_time) {
   Frame& f = state_.state;
   const double start = static_cast<double>(statistics_.steps) * long_step();
-  R_ = model_.droplet.radius(start + 0.5 * long_step());
+  R_ = front_.radius(start + 0.5 * long_step());
   classify();
   advance_slow();
   if (!fast_.empty()) {
@@ -71,6 +71,7 @@ void Brownian::step(double latest_time) {
   ++f.step;
   f.time = std::min(static_cast<double>(statistics_.steps) * long_step(), latest_time);
   statistics_.particle_steps += static_cast<std::int64_t>(fast_.size());
+  front_.follow(state_);
   if (statistics_.steps % 1000 == 0) check_finite();
 }
 

@@ -12,6 +12,7 @@ void DryingCheckpoint::save(const DryingRun& run, const std::optional<DryingOutc
   store_frame(run.state().state, "state", out);
   const Integrator::Memory memory = run.integrator().memory();
   out.reals["integrator"] = memory.numbers;
+  out.reals["front"] = {memory.front.time, memory.front.reduced, memory.front.rate};
   out.integers["integrator_counts"] = memory.counts;
   out.integers["active"].assign(memory.active.begin(), memory.active.end());
   if (companion) out.reals["companion"] = {companion->d_c, companion->h_c_over_d_c, companion->contacts};
@@ -24,6 +25,8 @@ DryingRun DryingCheckpoint::resume(const DryingScene& scene) const {
   state.state = restore_frame(stored(), "state");
   Integrator::Memory memory;
   memory.numbers = stored().real("integrator");
+  const auto& front = stored().real("front");
+  memory.front = {front.at(0), front.at(1), front.at(2)};
   memory.counts = stored().integer("integrator_counts");
   memory.active.assign(stored().integer("active").begin(), stored().integer("active").end());
   return DryingRun(scene, 1, std::move(state), memory);

@@ -23,7 +23,6 @@ Inertial::Inertial(const DryingModel& model, Agglomerate& state, double step, st
     const double e = -0.5 * zeta * step / m, e_r = -0.5 * zeta_r * step / (0.4 * m * a * a);
     kicks_.push_back({std::exp(e), -std::expm1(e) / zeta, std::exp(e_r), -std::expm1(e_r) / zeta_r});
   }
-  evaluate_forces();
 }
 
 double Inertial::recommended_step(const DryingModel& model, const Particles& particles) {
@@ -34,12 +33,14 @@ double Inertial::recommended_step(const DryingModel& model, const Particles& par
 }
 
 void Inertial::step(double latest_time) {
+  if (!forces_known_) evaluate_forces();  // only here is it known where the front of a resumed run is
   kick();
   drift();
   state_.state.time = std::min(state_.state.time + step_, latest_time);
   ++state_.state.step;
   evaluate_forces();
   kick();
+  front_.follow(state_);
   ++statistics_.steps;
   statistics_.particle_steps += static_cast<std::int64_t>(activity_.active().size());
   if (statistics_.steps % 1000 == 0) check_finite();
@@ -80,8 +81,9 @@ Vector3 Inertial::random_vector(Purpose purpose, std::int32_t particle) const {
 void Inertial::evaluate_forces() {
   Frame& f = state_.state;
   const auto& radius = state_.particles.radius;
-  const double R = model_.droplet.radius(f.time);
+  const double R = front_.radius(f.time);
   activity_.front_at(R);
+  forces_known_ = true;
   for (const std::int32_t p : activity_.active()) {
     const double r = f.position[p].norm();
     f.force[p].setZero();

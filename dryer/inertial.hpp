@@ -32,6 +32,7 @@ class Inertial : public Integrator {
 
   double step_;
   std::uint64_t seed_;
+  bool forces_known_ = false;
   struct HalfKick {
     double kept, gained, kept_rotation, gained_rotation;
   };

@@ -14,12 +14,13 @@ Integrator::Integrator(const DryingModel& model, Agglomerate& state, double skin
     : model_(model),
       state_(state),
       laws_(model.contact, model.material, state.particles.radius),
+      front_(model.droplet, model.crust_diffusivity),
       open_(skin * smallest(state.particles.radius)),
       activity_(state.particles, state.state),
       smallest_radius_(smallest(state.particles.radius)) {
   const Frame& f = state.state;
   open_.update(f.position, state.particles.radius, f.contacts);
-  activity_.front_at(model.droplet.radius(f.time));
+  if (f.time == 0) activity_.front_at(front_.radius(0));  // later the front may be slower than it looks: recall()
   if (model.thermal_energy > 0)
     for (std::size_t p = 0; p < state.particles.size(); ++p) activity_.wake(static_cast<std::int32_t>(p));
 }
@@ -70,6 +71,7 @@ Integrator::Memory Integrator::memory() const {
   const IntegratorStatistics& s = statistics_;
   Memory memory;
   memory.numbers = {s.largest_overlap};
+  memory.front = front_.past();
   memory.counts = {s.steps, s.rejected, s.newton_iterations, s.particle_steps, s.contacts_made, s.contacts_lost};
   for (std::size_t p = 0; p < state_.particles.size(); ++p)
     memory.active.push_back(activity_.is_active(static_cast<std::int32_t>(p)));
@@ -78,6 +80,7 @@ Integrator::Memory Integrator::memory() const {
 
 void Integrator::recall(const Memory& memory) {
   const auto& c = memory.counts;
+  front_.recall(memory.front);
   statistics_ = {c.at(0), c.at(1), c.at(2), c.at(3), c.at(4), c.at(5), memory.numbers.at(0)};
   for (std::size_t p = 0; p < state_.particles.size(); ++p)
     if (memory.active.at(p)) activity_.wake(static_cast<std::int32_t>(p));

@@ -8,6 +8,7 @@
 #include "common/agglomerate/open_pairs.hpp"
 #include "common/contact/bond_laws.hpp"
 #include "dryer/activity.hpp"
+#include "dryer/front.hpp"
 #include "dryer/model.hpp"
 
 namespace crumble {
@@ -30,10 +31,12 @@ class Integrator {
   virtual void step(double latest_time) = 0;
 
   const IntegratorStatistics& statistics() const { return statistics_; }
+  const Front& front() const { return front_; }
 
   // All that the next step depends on beside the state, for a restart to the same bits.
   struct Memory {
     std::vector<double> numbers;
+    Front::Past front;
     std::vector<std::int64_t> counts;
     std::vector<std::uint8_t> active;
   };
@@ -57,6 +60,7 @@ class Integrator {
   const DryingModel& model_;
   Agglomerate& state_;
   BondLaws laws_;
+  Front front_;  // each step ends with front_.follow(state_)
   OpenPairs open_;
   Activity activity_;
   IntegratorStatistics statistics_;

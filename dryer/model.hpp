@@ -14,8 +14,9 @@ struct DryParticles {
 
 struct DryingModel {
   Droplet droplet;
-  double viscosity = 1e-3;    // mu, Pa s
-  double thermal_energy = 0;  // kT, J; 0: no Brownian motion, D = 0
+  double crust_diffusivity = 1;  // of vapour in the dry crust, relative to that in the gas; 1: no hindrance
+  double viscosity = 1e-3;       // mu, Pa s
+  double thermal_energy = 0;     // kT, J; 0: no Brownian motion, D = 0
   Material material;
   ContactChoice contact;
   DryParticles dry;

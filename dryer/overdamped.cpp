@@ -34,8 +34,9 @@ void Overdamped::recall(const Memory& memory) {
 // The step that moves the front by the largest displacement allowed, or up to the next particle if nothing moves.
 double Overdamped::proposal(double latest_time) const {
   const Frame& f = state_.state;
-  const double R = model_.droplet.radius(f.time);
-  bool at_front = false;
+  const double R = front_.radius(f.time);
+  // Behind a crust the front has to be followed even where it touches nobody.
+  bool at_front = front_.may_slow_down();
   for (const std::int32_t p : activity_.active())
     at_front = at_front || std::abs(f.position[p].norm() - R) < state_.particles.radius[p];
   const double travel = control_.largest_displacement * smallest_radius();
@@ -48,7 +49,7 @@ double Overdamped::proposal(double latest_time) const {
       if (reach <= R) R_next = std::max(R_next, reach - travel);
     }
   }
-  double dt = model_.droplet.time_at(std::max(R_next, 0.0)) - f.time;
+  double dt = front_.time_at(std::max(R_next, 0.0)) - f.time;
   if (next_dt_ > 0) dt = std::min(dt, next_dt_);
   return std::min(dt, latest_time - f.time);
 }
@@ -107,10 +108,10 @@ double Overdamped::touch_fraction() const {
 }
 
 Overdamped::Attempt Overdamped::attempt(double dt) {
-  if (activity_.front_at(model_.droplet.radius(state_.state.time + dt))) network_changed_ = true;
+  if (activity_.front_at(front_.radius(state_.state.time + dt))) network_changed_ = true;
   refresh();
   predict(dt);
-  const auto outcome = implicit_.solve(dt, model_.droplet.radius(state_.state.time + dt), 1e-6 * smallest_radius());
+  const auto outcome = implicit_.solve(dt, front_.radius(state_.state.time + dt), 1e-6 * smallest_radius());
   statistics_.newton_iterations += outcome.iterations;
   if (!outcome.converged) return {false, 0.3 * dt};
   const double moved = largest_displacement() / control_.largest_displacement;
@@ -139,6 +140,7 @@ void Overdamped::accept(double dt) {
   statistics_.particle_steps += static_cast<std::int64_t>(active.size());
   const auto motion_of = [&](std::int32_t p) { return Motion{implicit_.translation(p), implicit_.rotation(p)}; };
   if (advance_bonds(motion_of)) network_changed_ = true;
+  front_.follow(state_);
 }
 
 }  // namespace crumble

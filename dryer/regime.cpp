@@ -64,6 +64,11 @@ std::vector<std::string> describe(const DryingScene& s) {
   lines.push_back(fmt::format("drying: tau = {:.4g} s, k = {:.4g} m2/s, Pe = {}", s.model.droplet.lifetime,
                               r.evaporation_constant,
                               std::isinf(r.peclet) ? "infinity" : fmt::format("{:.4g}", r.peclet)));
+  if (s.model.crust_diffusivity < 1)
+    lines.push_back(fmt::format(
+        "second stage: the dry crust lets vapour through {:.3g} times as fast as the gas does; the "
+        "liquid lives between {:.4g} and {:.4g} s",
+        s.model.crust_diffusivity, s.model.droplet.lifetime, s.model.droplet.lifetime / s.model.crust_diffusivity));
   lines.push_back(
       fmt::format("the front recedes at {:.2g} m/s, {:.2g} m/s when the solids are packed; capillary force "
                   "moves a particle at up to sigma/(3 mu) = {:.2g} m/s",

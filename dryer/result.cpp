@@ -68,6 +68,7 @@ void fill_report(Report& report, const DryingScene& scene, const DryingRun& run,
   report.result("radius_of_gyration_nm", m.radius_of_gyration * 1e9);
   report.result("contacts_within_0_02_a", m.touching);
   report.result("porosity", m.porosity);
+  report.result("drying_time_s", run.state().state.time);
   report.result("contacts_made", s.contacts_made);
   report.result("contacts_lost", s.contacts_lost);
 

@@ -17,10 +17,10 @@ class DryingRun {
   // A run that goes on from a saved state.
   DryingRun(const DryingScene& scene, double coarsening, Agglomerate state, const Integrator::Memory& memory);
 
-  void step() { integrator_->step(scene_.model.droplet.lifetime); }
-  bool finished() const { return state_.state.time >= scene_.model.droplet.lifetime; }
+  void step() { integrator_->step(integrator_->front().end()); }
+  bool finished() const { return state_.state.time >= integrator_->front().end(); }
 
-  double droplet_radius() const { return scene_.model.droplet.radius(state_.state.time); }
+  double droplet_radius() const { return integrator_->front().radius(state_.state.time); }
   double fraction() const { return 1 - droplet_radius() / scene_.model.droplet.initial_radius; }
 
   const Agglomerate& state() const { return state_; }

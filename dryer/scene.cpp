@@ -36,6 +36,7 @@ DryingScene drying_scene(const Scene& scene) {
   s.control = {scene.real("integrator.largest_displacement"), scene.real("integrator.contact_precision")};
   s.brownian.contact_step = scene.real("integrator.contact_step");
   s.softening = scene.real("integrator.softening");
+  s.model.crust_diffusivity = scene.real("crust.relative_diffusivity");
   s.model.dry = {scene.flag("dry.everything_acts"), scene.real("dry.drag_factor")};
   s.frames = static_cast<int>(scene.integer("output.frames"));
   // With noise the paths of two step lengths part; the error is one of means over many seeds.

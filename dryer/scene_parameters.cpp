@@ -84,6 +84,13 @@ const ParameterTable& drying_parameters() {
         P::real("drag_factor", "", "Of Stokes drag, which stays as a relaxation; 0.1 to 10 changes nothing (manual)")
             .above(0)
             .by_default(1)}},
+      {"crust",
+       "The dry crust hinders the vapour on its way out: the second stage of drying, longer than droplet.lifetime.",
+       {P::real("relative_diffusivity", "",
+                "Of vapour in the pores of the crust, in that in the gas (porosity over tortuosity); 1: no hindrance")
+            .above(0)
+            .at_most(1)
+            .by_default(1)}},
       {"integrator",
        "How the equations are solved.",
        {P::choice(

@@ -15,12 +15,13 @@ namespace {
 
 DryingScene small_scene(const std::string& kind) {
   const bool brownian = kind.ends_with("_with_noise");
+  const std::string crust = kind.ends_with("_behind_a_crust") ? "[crust]\nrelative_diffusivity = 0.2\n" : "";
   const std::string method = kind.substr(0, kind.find('_'));
   const std::string text = std::string("[particle]\nradius = 10e-9\nnumber = 20\nbrownian_motion = ") +
                            (brownian ? "true" : "false") +
                            "\n[droplet]\nradius = 120e-9\nlifetime = 2e-7\n"
                            "[integrator]\nmethod = \"" +
-                           method + "\"\n";
+                           method + "\"\n" + crust;
   return drying_scene(Scene::parse(text, "small.toml", drying_parameters()));
 }
 
@@ -62,7 +63,8 @@ TEST_P(Restart, continues_to_the_same_bits_from_any_step) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Integrators, Restart,
-                         ::testing::Values("overdamped", "inertial", "overdamped_with_noise", "inertial_with_noise"));
+                         ::testing::Values("overdamped", "inertial", "overdamped_with_noise", "inertial_with_noise",
+                                           "overdamped_behind_a_crust", "inertial_behind_a_crust"));
 
 TEST(Checkpoint, of_another_scene_version_or_program_is_refused_with_the_difference) {
   const Folder folder;
