@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
-#include <charconv>
 #include <filesystem>
 #include <fstream>
 
@@ -11,6 +10,7 @@
 #include "common/io/provenance.hpp"
 #include "common/io/report.hpp"
 #include "dryer/continuum.hpp"
+#include "dryer/number_list.hpp"
 
 namespace crumble {
 
@@ -27,21 +27,18 @@ InputError misuse(const std::string& wrong) {
                   wrong));
 }
 
-double number(const std::string& option, std::string_view text) {
-  double value = 0;
-  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (problem != std::errc() || end != text.data() + text.size())
-    throw misuse(fmt::format("{}: '{}' is not a number", option, text));
-  return value;
+std::vector<double> numbers(const std::string& option, const std::string& list) {
+  try {
+    return number_list(list);
+  } catch (const std::invalid_argument& error) {
+    throw misuse(fmt::format("{}: {}", option, error.what()));
+  }
 }
 
-std::vector<double> numbers(const std::string& option, std::string_view list) {
-  std::vector<double> values;
-  for (std::size_t start = 0, comma = 0; comma != std::string_view::npos; start = comma + 1) {
-    comma = list.find(',', start);
-    values.push_back(number(option, list.substr(start, comma - start)));
-  }
-  return values;
+double number(const std::string& option, const std::string& text) {
+  const std::vector<double> one = numbers(option, text);
+  if (one.size() != 1) throw misuse(fmt::format("{}: '{}' is not a number", option, text));
+  return one.front();
 }
 
 void check_file(const std::string& option, const std::string& file) {

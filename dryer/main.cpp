@@ -1,6 +1,7 @@
 // Dries one droplet of colloid: scene in, agglomerate file out.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <string_view>
 
@@ -36,9 +37,10 @@ ProgramDescription description() {
           true};
 }
 
-// Frames are due whenever the front has passed the next of evenly spaced radii.
+// How many of the frames after the first are due: those whose radius the front has passed, and the last one at the end.
 int frames_due(const DryingScene& scene, const DryingRun& run) {
-  return run.finished() ? scene.frames + 1 : static_cast<int>(run.fraction() * (scene.frames + 1));
+  const auto passed = std::upper_bound(scene.frames.begin(), scene.frames.end(), run.fraction()) - scene.frames.begin();
+  return static_cast<int>(passed) + (run.finished() ? 1 : 0);
 }
 
 void advance(DryingRun& run, ProgressPrinter& progress) {

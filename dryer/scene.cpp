@@ -2,13 +2,39 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include "dryer/inertial.hpp"
+#include "dryer/number_list.hpp"
 #include "dryer/process_inputs.hpp"
 
 namespace crumble {
+
+namespace {
+
+std::vector<double> frames(const Scene& scene) {
+  std::vector<double> fraction;
+  const auto even = scene.integer("output.frames");
+  for (std::int64_t k = 1; k <= even; ++k) fraction.push_back(static_cast<double>(k) / static_cast<double>(even + 1));
+  if (scene.text("output.theta").empty()) return fraction;
+  try {
+    for (const double theta : number_list(scene.text("output.theta"))) {
+      if (!(theta > 0 && theta < 1))
+        throw std::invalid_argument(fmt::format("{:g} is not between 0 and 1, both excluded", theta));
+      fraction.push_back(1 - std::sqrt(1 - theta));
+    }
+  } catch (const std::invalid_argument& error) {
+    throw scene.error("output.theta", error.what());
+  }
+  std::sort(fraction.begin(), fraction.end());
+  fraction.erase(std::unique(fraction.begin(), fraction.end()), fraction.end());
+  return fraction;
+}
+
+}  // namespace
 
 DryingScene drying_scene(const Scene& scene) {
   const ProcessInputs process = process_inputs(scene);
@@ -38,7 +64,7 @@ DryingScene drying_scene(const Scene& scene) {
   s.softening = scene.real("integrator.softening");
   s.model.crust_diffusivity = scene.real("crust.relative_diffusivity");
   s.model.dry = {scene.flag("dry.everything_acts"), scene.real("dry.drag_factor")};
-  s.frames = static_cast<int>(scene.integer("output.frames"));
+  s.frames = frames(scene);
   // With noise the paths of two step lengths part; the error is one of means over many seeds.
   s.estimate_error = scene.flag("error.estimate") && s.model.thermal_energy == 0;
   if (s.model.thermal_energy > 0 && !s.inertial && s.model.contact.normal != NormalLaw::jkr)

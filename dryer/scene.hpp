@@ -27,7 +27,7 @@ struct DryingScene {
   double smallest_radius() const { return radius.back(); }
   double largest_radius() const { return radius.front(); }
   bool softens_contacts() const { return softening > 1 && model.thermal_energy > 0 && !inertial; }
-  int frames = 0;
+  std::vector<double> frames;  // fractions 1 - R/R0 at which one is due, in order, besides the start and the end
   bool estimate_error = true;
 };
 

@@ -131,7 +131,9 @@ const ParameterTable& drying_parameters() {
        {P::integer("frames", "Frames between start and end, evenly spaced in the radius of the droplet")
             .at_least(0)
             .at_most(100000)
-            .by_default(50)}},
+            .by_default(50),
+        P::text("theta", "Further frames: 0.2,0.4 adds those where (R/R0)^2 has fallen by 0.2 and by 0.4")
+            .by_default("")}},
       {"run", "The run itself.", {P::integer("seed", "Names the random start").at_least(0).by_default(1)}}};
   return table;
 }

@@ -50,6 +50,9 @@ INSTANTIATE_TEST_SUITE_P(
                   "drying.toml:3: particle.solids_fraction = 0.4: fills 40 %"},
         Malformed{"more_particles_than_numbers", "[particle]\nradius = 1e-10\nsolids_fraction = 0.25\n" DROPLET,
                   "means 2.48e+09 particles"},
+        Malformed{"theta_of_one", PARTICLE DROPLET "[output]\ntheta = \"0.2,1\"\n",
+                  "drying.toml:8: output.theta = \"0.2,1\": 1 is not between 0 and 1, both excluded"},
+        Malformed{"theta_in_words", PARTICLE DROPLET "[output]\ntheta = \"half\"\n", "'half' is not a number"},
         Malformed{"no_speed_of_drying", PARTICLE "[droplet]\nradius = 215e-9\n",
                   "drying.toml: the speed of drying is missing; give one of droplet.lifetime, "
                   "droplet.evaporation_constant, droplet.front_speed, droplet.peclet"},
@@ -111,6 +114,15 @@ TEST(DryingScene, defaults_are_table_1_and_the_paper_s_equations) {
   EXPECT_EQ(s.model.droplet.surface_tension, 1.75e-4);
   EXPECT_EQ(s.model.contact.rolling_limit_factor, 1);
   EXPECT_FALSE(s.inertial);
+}
+
+TEST(DryingScene, frames_at_given_theta_come_in_between_the_even_ones) {
+  const std::string text = good + "[output]\nframes = 1\ntheta = \"0.96, 0.36,0.75\"\n";
+  const DryingScene s = drying_scene(Scene::parse(text, "drying.toml", drying_parameters()));
+  ASSERT_EQ(s.frames.size(), 3u);  // R/R0 = 0.5 is both theta = 0.75 and the even one
+  EXPECT_NEAR(s.frames[0], 0.2, 1e-12);
+  EXPECT_NEAR(s.frames[1], 0.5, 1e-12);
+  EXPECT_NEAR(s.frames[2], 0.8, 1e-12);
 }
 
 TEST(DryingScene, description_says_what_will_happen) {
