@@ -11,13 +11,9 @@ import h5py
 import matplotlib
 import numpy
 
-matplotlib.use("Agg")
-matplotlib.rcParams["svg.hashsalt"] = "crumble"  # the same file every time
-from matplotlib import pyplot  # noqa: E402
-from matplotlib.collections import PatchCollection  # noqa: E402
-from matplotlib.patches import Circle  # noqa: E402
-
-BLUE, ORANGE, GREEN, BLACK = "#0072B2", "#D55E00", "#009E73", "#222222"  # told apart by all eyes (Okabe & Ito)
+from figure import BLACK, BLUE, GREEN, ORANGE, pyplot, save
+from matplotlib.collections import PatchCollection
+from matplotlib.patches import Circle
 
 
 def chosen(stress, broken, count):
@@ -98,8 +94,7 @@ def course(path, out):
     for axes in (shape, contacts, limits):
         axes.set(xlabel="flow stress, Pa", xlim=(0, None))
         axes.legend(frameon=False, fontsize=8)
-    figure.savefig(out, metadata={"Date": None})
-    pyplot.close(figure)
+    save(figure, out)
 
 
 if __name__ == "__main__":

@@ -7,17 +7,8 @@ One panel for each Peclet number; FILE.csv is what `dryer continuum` writes.
 
 import argparse
 import csv
-import os
 
-import matplotlib
-
-matplotlib.use("Agg")
-# The same input gives the same bytes.
-matplotlib.rcParams.update({"svg.hashsalt": "crumble", "svg.fonttype": "none", "font.size": 9})
-import matplotlib.pyplot as plt  # noqa: E402
-
-# Told apart by colour-blind readers (Okabe & Ito 2008) and in print.
-LINES = [("#000000", "-"), ("#D55E00", "--"), ("#0072B2", "-."), ("#009E73", ":")]
+from figure import LINES, pyplot, save
 
 
 def read(name):
@@ -32,15 +23,14 @@ def read(name):
 
 
 def draw(panels, out):
-    figure, axes = plt.subplots(1, len(panels), figsize=(3.2 * len(panels), 2.8), squeeze=False, layout="constrained")
+    figure, axes = pyplot.subplots(1, len(panels), figsize=(3.2 * len(panels), 2.8), squeeze=False, layout="constrained")
     for axis, (peclet, name) in zip(axes[0], panels):
         for i, (theta, (rho, gamma)) in enumerate(read(name).items()):
             colour, dashes = LINES[i % len(LINES)]
             axis.plot(rho, gamma, color=colour, linestyle=dashes, label=f"θ = {theta}")
         axis.set(title=f"Pe = {peclet}", xlabel="r/R(t)", ylabel="C/C₀", xlim=(0, 1), ylim=(0, None))
         axis.legend(frameon=False)
-    figure.savefig(out + ".tmp", format="svg", metadata={"Date": None})
-    os.replace(out + ".tmp", out)
+    save(figure, out)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,85 @@
+"""Granules against the lifetime of the droplet: Table 3 and Fig. 4 of Vasquez Giuliano et al. (2022), and beyond.
+
+    lifetimes.py FOLDER REPORT.json...        (writes FOLDER/figure4.csv and FOLDER/figure4.svg)
+
+Each report is one of dryer; those of the inertial integrator have "inertial" in their name. Prints the table.
+"""
+
+import csv
+import json
+import pathlib
+import statistics
+import sys
+
+from figure import BLUE, ORANGE, pyplot, save
+from interval import half_width
+
+QUANTITIES = [("d_c_um", "d_c, um", "{:.2f}"), ("h_c_um", "h_c, um", "{:.2f}"), ("h_c_over_d_c", "h_c/d_c", "{:.3f}"),
+              ("contacts", "contacts", "{:.1f}"), ("fragments", "fragments", "{:.1f}")]
+
+
+def read(name):
+    report = json.loads(pathlib.Path(name).read_text())
+    r = report["results"]
+    d_c = 1e-3 * r["d_c_nm"]
+    return {"lifetime_ms": 1e3 * r["inputs"]["lifetime_s"], "integrator": "inertial" if "inertial" in name else "overdamped",
+            "d_c_um": d_c, "h_c_um": d_c * r["h_c_over_d_c"], "h_c_over_d_c": r["h_c_over_d_c"],
+            "contacts": r["contacts"], "fragments": r["fragments"], "cpu_s": report["cpu_s"],
+            "limit": r["inputs"]["capillary_speed_limit_m_per_s"], "k": r["inputs"]["evaporation_constant_m2_per_s"]}
+
+
+def rows(runs):
+    """One row a lifetime and integrator: means, spreads and the front's speed at the final radius over the limit."""
+    for key in sorted({(run["lifetime_ms"], run["integrator"]) for run in runs}):
+        group = [run for run in runs if (run["lifetime_ms"], run["integrator"]) == key]
+        row = {"lifetime_ms": key[0], "integrator": key[1], "granules": len(group)}
+        for name, _, _ in QUANTITIES:
+            values = [run[name] for run in group]
+            row[name] = statistics.fmean(values)
+            row[name + "_spread"] = statistics.stdev(values)
+            row[name + "_half_width"] = half_width(values)
+        row["front_over_limit"] = group[0]["k"] / (1e-6 * row["d_c_um"]) / group[0]["limit"]
+        row["cpu_s"] = statistics.fmean(run["cpu_s"] for run in group)
+        yield row
+
+
+def show(table):
+    print("| lifetime ms | integrator | granules | " + " | ".join(label for _, label, _ in QUANTITIES) + " | front | CPU s |")
+    print("|---" * (5 + len(QUANTITIES)) + "|")
+    for row in table:
+        cells = [form.format(row[name]) + " +- " + form.format(row[name + "_spread"]) for name, _, form in QUANTITIES]
+        print(f"| {row['lifetime_ms']:g} | {row['integrator']} | {row['granules']} | " + " | ".join(cells) +
+              f" | {row['front_over_limit']:.2f} | {row['cpu_s']:.1f} |")
+    print("\n+-: standard deviation between granules. front: speed of the receding surface where its radius is d_c/2, over the\n"
+          "speed sigma/(3 mu) at which the capillary force can move a particle.")
+
+
+def draw(table, out):
+    figure, panels = pyplot.subplots(1, 4, figsize=(11, 2.8), layout="constrained")
+    for axes, (name, label, _) in zip(panels, QUANTITIES):
+        for integrator, colour, marker in (("overdamped", BLUE, "o"), ("inertial", ORANGE, "x")):
+            mine = [row for row in table if row["integrator"] == integrator]
+            axes.errorbar([row["lifetime_ms"] for row in mine], [row[name] for row in mine],
+                          [row[name + "_spread"] for row in mine], fmt=marker, color=colour, capsize=2, label=integrator,
+                          fillstyle="none")
+        axes.set(xlabel="lifetime, ms", ylabel=label, xscale="log", ylim=(0, None))
+        axes.axvspan(3, 25, color="#dddddd", zorder=0, label="Table 3")
+    panels[0].legend(frameon=False, fontsize=7, loc="lower right")
+    save(figure, out)
+
+
+def main(folder, names):
+    table = list(rows([read(name) for name in names]))
+    folder = pathlib.Path(folder)
+    with (folder / "figure4.csv").open("w", newline="") as file:
+        writer = csv.DictWriter(file, table[0].keys())
+        writer.writeheader()
+        writer.writerows(table)
+    draw(table, folder / "figure4.svg")
+    show(table)
+
+
+if __name__ == "__main__":
+    if len(sys.argv) < 3:
+        sys.exit(__doc__)
+    main(sys.argv[1], sys.argv[2:])
