@@ -1,12 +1,19 @@
-"""Cumulative distribution of the radial position, Fig. 3 of Vasquez Giuliano et al. (2022): distribution.py GRANULE.h5...
+"""Radial position of the particles, cumulative: Fig. 3 of Vasquez Giuliano et al. (2022).
 
-CSV: radius in nm from the centre of mass, and the fraction of particles within it: mean over the granules, lowest and
-highest granule."""
+    distribution.py FOLDER NAME=GRANULE.h5,... [NAME=...]      (writes FOLDER/figure3-NAME.csv and FOLDER/figure3.svg)
 
+Radius in nm from the centre of mass against the fraction of particles within it: mean over the granules, lowest and highest.
+"""
+
+import pathlib
 import sys
 
 import h5py
 import numpy
+
+from figure import LINES, pyplot, save
+
+TITLES = {"hollow": "Pe → ∞", "intermediate": "Pe = 10", "compact": "Pe = 1"}
 
 
 def radii(name):
@@ -15,16 +22,31 @@ def radii(name):
     return numpy.sort(numpy.linalg.norm(position - position.mean(axis=0), axis=1))
 
 
-def main(names):
-    if not names:
-        sys.exit(__doc__)
+def distribution(names):
+    """Grid in nm; mean, lowest and highest fraction within."""
     all_radii = [radii(name) for name in names]
     grid = numpy.arange(0, max(r[-1] for r in all_radii) + 1, 1.0)
     within = numpy.array([numpy.searchsorted(r, grid, side="right") / len(r) for r in all_radii])
-    print("radius_nm,mean,lowest,highest")
-    for x, values in zip(grid, within.T):
-        print(f"{x:g},{values.mean():.4f},{values.min():.4f},{values.max():.4f}")
+    return grid, within.mean(axis=0), within.min(axis=0), within.max(axis=0)
+
+
+def main(folder, populations):
+    folder = pathlib.Path(folder)
+    figure, axes = pyplot.subplots(figsize=(4.2, 3.2), layout="constrained")
+    for (colour, dashes), population in zip(LINES, populations):
+        name, _, files = population.partition("=")
+        grid, mean, lowest, highest = distribution(files.split(","))
+        with (folder / f"figure3-{name}.csv").open("w") as out:
+            out.write("radius_nm,mean,lowest,highest\n")
+            out.writelines(f"{x:g},{m:.4f},{a:.4f},{b:.4f}\n" for x, m, a, b in zip(grid, mean, lowest, highest))
+        axes.plot(grid, mean, color=colour, linestyle=dashes, label=TITLES.get(name, name))
+        axes.fill_between(grid, lowest, highest, color=colour, alpha=0.2, linewidth=0)
+    axes.set(xlabel="distance from the centre of mass, nm", ylabel="fraction of particles within", xlim=(0, None), ylim=(0, 1.02))
+    axes.legend(frameon=False)
+    save(figure, folder / "figure3.svg")
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    if len(sys.argv) < 3:
+        sys.exit(__doc__)
+    main(sys.argv[1], sys.argv[2:])
