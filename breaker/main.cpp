@@ -55,8 +55,8 @@ void advance(BreakupRun& run, const BreakerScene& scene, AgglomerateWriter& writ
   if (run.stress() >= p.next_sample) put_sample(writer, run, scene, p);
   if ((run.stress() >= p.next_frame || run.at_stage_end()) && !run.finished()) put_frame(writer, run, scene, p);
   progress.update(run.fraction(), run.statistics().steps, [&] {
-    return fmt::format("{:.0f} Pa, {} contacts, largest tension {:.2f} F_po", run.stress(), run.look().contacts,
-                       run.look().network.max_use);
+    return fmt::format("step {}, {:.0f} Pa, {} contacts, largest tension {:.2f} F_po", run.statistics().steps,
+                       run.stress(), run.look().contacts, run.look().network.max_use);
   });
 }
 
@@ -129,6 +129,7 @@ int break_up(int argc, const char* const* argv) {
   write_rest(writer, run, scene, start);
   writer.finish(run.breakup().severed ? "broken" : "relaxed");
   checkpoint.remove();
+  report.add(checkpoint.used());
   fill_report(report, scene, start, run, p.companion);
   if (!line.report.empty()) report.write(line.report);
   fmt::print("{}", result_text(run, scene, p.companion));

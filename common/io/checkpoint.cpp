@@ -85,7 +85,15 @@ OutputCheckpoint::OutputCheckpoint(const std::string& output, CheckpointOwner ow
     : path_(output + ".checkpoint"),
       owner_(std::move(owner)),
       found_(std::filesystem::exists(path_) && std::filesystem::exists(output + ".tmp")) {
-  if (found_) stored_ = load_checkpoint(path_, owner_);
+  if (!found_) return;
+  stored_ = load_checkpoint(path_, owner_);
+  used_ = {stored_.real("used").at(0), stored_.real("used").at(1)};
+}
+
+void OutputCheckpoint::store(Checkpoint checkpoint) const {
+  const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  checkpoint.reals["used"] = {used_.wall_s + wall, used_.cpu_s + process_cpu_seconds()};
+  save_checkpoint(path_, owner_, checkpoint);
 }
 
 void OutputCheckpoint::require() const {

@@ -1,11 +1,14 @@
 // The exact state of an interrupted run, private to the program that wrote it.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
+
+#include "common/io/cost.hpp"
 
 namespace crumble {
 
@@ -42,9 +45,11 @@ class OutputCheckpoint {
   // Throws InputError, saying what was looked for, if none was found.
   void require() const;
   void remove() const;
+  // What the processes used that made the checkpoint; zero without one.
+  const Cost& used() const { return used_; }
 
  protected:
-  void store(const Checkpoint& checkpoint) const { save_checkpoint(path_, owner_, checkpoint); }
+  void store(Checkpoint checkpoint) const;
   const Checkpoint& stored() const { return stored_; }
 
  private:
@@ -52,6 +57,8 @@ class OutputCheckpoint {
   CheckpointOwner owner_;
   bool found_;
   Checkpoint stored_;
+  Cost used_;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace crumble

@@ -23,8 +23,6 @@ nlohmann::ordered_json& place(nlohmann::ordered_json& results, const std::string
   return dot == std::string::npos ? results[name] : place(results[name.substr(0, dot)], name.substr(dot + 1));
 }
 
-double seconds(const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); }
-
 }  // namespace
 
 Report::Report(std::string program, std::string version, std::string scene, std::optional<std::int64_t> seed)
@@ -57,8 +55,8 @@ std::string Report::json() const {
     out["seed"] = *seed_;
   else
     out["seed"] = nullptr;
-  out["wall_s"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-  out["cpu_s"] = seconds(used.ru_utime) + seconds(used.ru_stime);
+  out["wall_s"] = earlier_.wall_s + std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  out["cpu_s"] = earlier_.cpu_s + process_cpu_seconds();
   out["peak_rss_bytes"] = std::int64_t{used.ru_maxrss} * 1024;  // Linux counts in KiB
   out["steps"] = steps;
   out["results"] = nlohmann::ordered_json::object();

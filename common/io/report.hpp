@@ -10,9 +10,12 @@
 #include <variant>
 #include <vector>
 
+#include "common/io/cost.hpp"
+
 namespace crumble {
 
-// Begin it where the work begins: wall time counts from there, CPU time and peak memory are the whole process's.
+// Begin it where the work begins: wall time counts from there, CPU time and peak memory are the whole process's, and what
+// earlier processes of the same run used is added.
 class Report {
  public:
   // Nothing (null in JSON) says that there is no such number.
@@ -20,6 +23,8 @@ class Report {
       std::variant<std::nullptr_t, std::int64_t, double, std::string, std::vector<double>, std::vector<std::int64_t>>;
 
   Report(std::string program, std::string version, std::string scene, std::optional<std::int64_t> seed);
+
+  void add(const Cost& earlier) { earlier_ = earlier; }
 
   std::int64_t steps = 0;
   std::vector<std::string> left_out;  // what the scene made unnecessary, and why that is allowed
@@ -44,6 +49,7 @@ class Report {
   std::string program_, version_, scene_;
   std::optional<std::int64_t> seed_;
   std::chrono::steady_clock::time_point begin_;
+  Cost earlier_;
   std::vector<std::pair<std::string, Value>> results_;
   std::vector<Error> errors_;
 };

@@ -75,6 +75,13 @@ class Program(unittest.TestCase):
             self.assertTrue((numpy.diff(stress) > 0).all())
             self.assertTrue((numpy.diff(file["observables/flow_stress/value"][:]) >= 0).all())
 
+    def test_a_run_that_cannot_go_on_says_where_and_keeps_its_state(self):
+        run = self.run_it(*self.command(self.agglomerate(DOUBLET), "material.youngs_modulus=1e120", "error.estimate=false"))
+        self.assertEqual(run.returncode, 1, run.stderr)
+        self.assertRegex(run.stderr, r"step 0 at t = 0 s \(0 Pa\): no step from \S+ s down to \S+ s is accepted \(1 contacts\)")
+        self.assertTrue((self.folder / "breakup.h5.checkpoint").exists())
+        self.assertFalse((self.folder / "breakup.h5").exists())
+
     def test_scaled_from_10_nm_breaks_as_at_100_nm(self):
         report, _, _ = self.breakup(self.agglomerate([[0, 0, 0], [20, 0, 0]], radius=10),
                                     "hydrodynamics.method=fts", "error.estimate=false")

@@ -45,6 +45,7 @@ TEST_P(Restart, continues_to_the_same_bits_from_any_step) {
     ASSERT_TRUE(found.found());
     EXPECT_EQ(found.companion()->contacts, 3);
     EXPECT_EQ(found.frames(), 4);
+    EXPECT_GT(found.used().cpu_s, 0);
     DryingRun second = found.resume(scene);
     while (!second.finished()) second.step();
     const Frame &f = whole.state().state, &g = second.state().state;
