@@ -52,19 +52,24 @@ bool Integrator::update_network(bool lost) {
       made.push_back(pair);
   }
   for (const Pair& pair : made) {
-    open_.close(pair);
-    activity_.wake(pair.i);
-    activity_.wake(pair.j);
-    const Contact bond = make_bond(laws_(pair.i, pair.j), pair.i, pair.j, f.position[pair.j] - f.position[pair.i],
-                                   radius[pair.i], radius[pair.j], f.step);
-    const auto place =
-        std::lower_bound(f.contacts.begin(), f.contacts.end(), pair, [](const Contact& c, const Pair& q) {
-          return Pair{c.i, c.j} < q;
-        });
-    f.contacts.insert(place, bond);
+    bond(pair);
     ++statistics_.contacts_made;
   }
   return lost || !made.empty();
+}
+
+Contact& Integrator::bond(const Pair& pair) {
+  Frame& f = state_.state;
+  const auto& radius = state_.particles.radius;
+  open_.close(pair);
+  activity_.wake(pair.i);
+  activity_.wake(pair.j);
+  const auto place = std::lower_bound(f.contacts.begin(), f.contacts.end(), pair, [](const Contact& c, const Pair& q) {
+    return Pair{c.i, c.j} < q;
+  });
+  return *f.contacts.insert(
+      place, make_bond(laws_(pair.i, pair.j), pair.i, pair.j, f.position[pair.j] - f.position[pair.i], radius[pair.i],
+                       radius[pair.j], f.step));
 }
 
 Integrator::Memory Integrator::memory() const {

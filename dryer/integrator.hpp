@@ -55,6 +55,9 @@ class Integrator {
   template <class MotionOf>
   bool advance_bonds(MotionOf motion_of);
 
+  // A new bond between two particles as they stand, awake from now on; it stays where it is until the next is made.
+  Contact& bond(const Pair& pair);
+
   double smallest_radius() const { return smallest_radius_; }
 
   const DryingModel& model_;

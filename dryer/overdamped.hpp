@@ -8,11 +8,12 @@ namespace crumble {
 
 struct OverdampedControl {
   double largest_displacement = 0.01;  // of any particle in one step, in its radius
-  double contact_precision = 1e-4;     // a contact is made when the overlap is within this, in the radius
+  double contact_precision = 1e-4;     // overlap that no bond holds at the end of a step, in the radius
 };
 
-// Steps through the drying with ImplicitStep. A step ends where the first new contact touches (its length is cut by the
-// secant until the overlap is within contact_precision), so contacts are made one after another, in their order.
+// Steps through the drying with ImplicitStep. Whatever overlaps at the end of a step by more than contact_precision is
+// bonded within the step, its springs loaded from the touch on, and the step is solved again with the new bonds until
+// nothing more overlaps. So contacts do not limit the steps, however many there are.
 class Overdamped : public Integrator {
  public:
   Overdamped(const DryingModel& model, Agglomerate& state, const OverdampedControl& control);
@@ -32,15 +33,25 @@ class Overdamped : public Integrator {
   Attempt attempt(double dt);
   double proposal(double latest_time) const;
   void predict(double dt);
-  double touch_fraction() const;
-  double largest_displacement() const;
+  double displacement();
+  Vector3 moved(std::int32_t particle) const;
+  void find_touches();
+  void bond_touches();
+  void take_back_bonds();
   void accept(double dt);
   void refresh();
 
   OverdampedControl control_;
   ImplicitStep implicit_;
   bool network_changed_ = true;
-  double next_dt_ = 0;         // proposal of the step control, s
+  double next_dt_ = 0;  // proposal of the step control, s
+  struct Touch {
+    Pair pair;
+    double fraction;  // of the step
+  };
+  std::vector<Touch> touches_;
+  std::vector<Pair> provisional_;  // bonds made in the step that is being tried
+  std::vector<double> moves_;
   std::vector<Vector6> rate_;  // velocities of the last step, per particle
 };
 

@@ -102,7 +102,8 @@ const ParameterTable& drying_parameters() {
             .above(0)
             .at_most(0.1)
             .by_default(0.02),
-        P::real("contact_precision", "", "overdamped: overlap within which a new contact is located, in a")
+        P::real("contact_precision", "",
+                "overdamped: overlap beyond which a pair is bonded within the step in which it touches, in a")
             .above(0)
             .at_most(1e-2)
             .by_default(1e-4),
