@@ -64,8 +64,9 @@ class BondBlock {
   Triple separation_, normal_, sliding_, rolling_;
   std::vector<double> twisting_, gap_;
   std::vector<double> a_i_, a_j_;
-  std::vector<double> length_, pull_off_, lost_gap_, k_s_, k_t_, k_r_, F_s_, M_t_, M_r_;
-  Triple force_, torque_i_, torque_j_;  // on j; torques of both, m and N
+  std::vector<double> inverse_length_, inverse_reach_, pull_off_, lost_gap_, k_s_, k_t_, k_r_;
+  std::vector<double> most_sliding_, most_twisting_, most_rolling_;  // displacements at which the springs yield
+  Triple force_, torque_i_, torque_j_;                               // on j; torques of both, m and N
   double deepest_ = 0;
 
   template <class Visit>

@@ -37,7 +37,7 @@ Brownian::Brownian(const DryingModel& model, Agglomerate& state, std::uint64_t s
 
 Brownian::Brownian(const DryingModel& model, Agglomerate& state, std::uint64_t seed, const BrownianControl& control,
                    const Scales& scales)
-    : Integrator(model, state, std::max(0.3, 1.5 * scales.margin / scales.radius)),
+    : Integrator(model, state, 0.3 + 2 * scales.margin / scales.radius, scales.margin / scales.radius),
       control_(control),
       path_(seed),
       dt_(scales.short_step),
@@ -58,8 +58,7 @@ bool Brownian::is_dry(std::int32_t p) const {
 
 void Brownian::step(double latest_time) {
   Frame& f = state_.state;
-  const double start = static_cast<double>(statistics_.steps) * long_step();
-  R_ = front_.radius(start + 0.5 * long_step());
+  R_ = front_.radius(f.time + 0.5 * long_step());
   classify();
   advance_slow();
   if (!fast_.empty()) {
@@ -69,7 +68,7 @@ void Brownian::step(double latest_time) {
   }
   ++statistics_.steps;
   ++f.step;
-  f.time = std::min(static_cast<double>(statistics_.steps) * long_step(), latest_time);
+  f.time = std::min(f.time + long_step(), latest_time);
   statistics_.particle_steps += static_cast<std::int64_t>(fast_.size());
   front_.follow(state_);
   if (statistics_.steps % 1000 == 0) check_finite();

@@ -10,6 +10,7 @@ void DryingCheckpoint::save(const DryingRun& run, const std::optional<DryingOutc
   Checkpoint out;
   out.integers["frames"] = {frames, last_frame_step};
   store_frame(run.state().state, "state", out);
+  out.integers["softening_stage"] = {static_cast<std::int64_t>(run.stage())};
   const Integrator::Memory memory = run.integrator().memory();
   out.reals["integrator"] = memory.numbers;
   out.reals["front"] = {memory.front.time, memory.front.reduced, memory.front.rate};
@@ -29,7 +30,8 @@ DryingRun DryingCheckpoint::resume(const DryingScene& scene) const {
   memory.front = {front.at(0), front.at(1), front.at(2)};
   memory.counts = stored().integer("integrator_counts");
   memory.active.assign(stored().integer("active").begin(), stored().integer("active").end());
-  return DryingRun(scene, 1, std::move(state), memory);
+  const auto stage = static_cast<std::size_t>(stored().integer("softening_stage").at(0));
+  return DryingRun(scene, 1, std::move(state), memory, stage);
 }
 
 std::optional<DryingOutcome> DryingCheckpoint::companion() const {

@@ -22,6 +22,32 @@ std::string rounded(double steps) {
   return steps < 1e5 ? fmt::format("{:.0f}", std::round(steps / 10) * 10) : fmt::format("{:.1e}", steps);
 }
 
+// Share of the lifetime until the solids take up this share of the droplet.
+double drying_until(const DryingScene& s, double packing) {
+  double solids = 0;
+  for (const double a : s.radius) solids += std::pow(a / s.model.droplet.initial_radius, 3);
+  return std::clamp(1 - std::pow(solids / packing, 2.0 / 3), 0.0, 1.0);
+}
+
+// The bonds of a stage of softening are there when the solids take up 0.115 and 0.26 of the droplet, nearly all
+// particles take short steps when it is 0.5.
+ExpectedCost brownian_cost(const DryingScene& s) {
+  const double a = s.smallest_radius(), N = static_cast<double>(s.radius.size());
+  const auto stages = softening_stages(s);
+  ExpectedCost cost;
+  double begin = 0;
+  for (std::size_t k = 0; k < stages.size(); ++k) {
+    const bool last = k + 1 == stages.size();
+    const double end = last ? 1 : drying_until(s, stages[k].softening == 4 ? 0.115 : 0.26);
+    const double step = Brownian::short_step(softened_model(s, stages[k].softening), a, s.brownian.contact_step);
+    const double short_steps = std::max(end - begin, 0.0) * s.model.droplet.lifetime / step;
+    cost.steps += std::ldexp(short_steps, -stages[k].depth);
+    cost.seconds += (last ? 1.0e-7 : 2.5e-8) * N * short_steps;
+    begin = end;
+  }
+  return cost;
+}
+
 }  // namespace
 
 ExpectedCost expected_cost(const DryingScene& s) {
@@ -31,10 +57,7 @@ ExpectedCost expected_cost(const DryingScene& s) {
     return {steps, 0.05e-6 * N * steps};
   }
   if (s.model.thermal_energy > 0) {
-    const double a = s.smallest_radius();
-    const double step = Brownian::short_step(effective_model(s), a, s.brownian.contact_step);
-    const double steps = s.model.droplet.lifetime / std::ldexp(step, s.brownian.depth);
-    return {steps, 2e-6 * N * steps};
+    return brownian_cost(s);
   }
   const double advance = s.model.droplet.initial_radius / s.smallest_radius() / s.control.largest_displacement;
   const double steps = advance / 0.8 + 5.5 * N;

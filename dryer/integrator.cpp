@@ -10,12 +10,12 @@ namespace {
 double smallest(const std::vector<double>& radius) { return *std::min_element(radius.begin(), radius.end()); }
 }  // namespace
 
-Integrator::Integrator(const DryingModel& model, Agglomerate& state, double skin)
+Integrator::Integrator(const DryingModel& model, Agglomerate& state, double skin, double complete)
     : model_(model),
       state_(state),
       laws_(model.contact, model.material, state.particles.radius),
       front_(model.droplet, model.crust_diffusivity),
-      open_(skin * smallest(state.particles.radius)),
+      open_(skin * smallest(state.particles.radius), complete * smallest(state.particles.radius)),
       activity_(state.particles, state.state),
       smallest_radius_(smallest(state.particles.radius)) {
   const Frame& f = state.state;

@@ -44,8 +44,8 @@ class Integrator {
   virtual void recall(const Memory& memory);
 
  protected:
-  // skin: how far beyond contact near pairs are listed, in the smallest radius.
-  Integrator(const DryingModel& model, Agglomerate& state, double skin);
+  // skin: how far beyond contact near pairs are listed; all with a gap below `complete` are. In the smallest radius.
+  Integrator(const DryingModel& model, Agglomerate& state, double skin, double complete = 0);
 
   struct Motion {
     Vector3 displacement, rotation;  // m, rad

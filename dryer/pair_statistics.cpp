@@ -9,7 +9,7 @@ PairStatistics pair_statistics(const Jkr& law, double kT, double diffusivity) {
   // From where the energy is 40 kT above the minimum, in even steps of the gap.
   double deepest = law.equilibrium_gap;
   while (law.energy(deepest) < 40 * kT) deepest += 0.5 * law.equilibrium_gap;
-  constexpr int below = 40000, above = 20000;
+  constexpr int below = 4000, above = 2000;
   const double barrier = law.energy(law.pull_off_gap);
   const auto weight = [&](double h) { return std::exp((barrier - law.energy(h)) / kT); };
   double inner = 0, step = -deepest / below, before = weight(deepest);
@@ -41,15 +41,31 @@ Material softened(const Material& material, double a, double kT, double factor) 
     soft.youngs_modulus *= share / std::pow(factor, 1.5);
     return soft;
   };
-  const auto stickiness = [&](const Material& m) { return pair_statistics(Jkr(m, a), kT, 1).stickiness; };
-  const double target = stickiness(material);
-  double low = 0, high = 1;
-  for (int k = 0; k < 50; ++k) {
-    const double middle = 0.5 * (low + high);
-    (stickiness(with_energy(middle)) > target ? high : low) = middle;
+  const double target = pair_statistics(Jkr(material, a), kT, 1).stickiness;
+  const auto excess = [&](double share) {
+    return std::log(pair_statistics(Jkr(with_energy(share), a), kT, 1).stickiness / target);
+  };
+  double high = 1, too_much = excess(high), low = high, too_little = too_much;
+  while (too_little > 0) {
+    low /= 2;
+    if (low < 1e-9) throw std::invalid_argument("no softer contact holds a pair as tightly");
+    too_little = excess(low);
   }
-  if (low == 0) throw std::invalid_argument("no softer contact holds a pair as tightly");
-  return with_energy(0.5 * (low + high));
+  // Rule of false position, an end that stays counted half (Illinois).
+  while (high - low > 1e-12 * high) {
+    const double share = (low * too_much - high * too_little) / (too_much - too_little), value = excess(share);
+    if (std::abs(value) < 1e-11) return with_energy(share);
+    if (value > 0) {
+      high = share;
+      too_much = value;
+      too_little /= 2;
+    } else {
+      low = share;
+      too_little = value;
+      too_much /= 2;
+    }
+  }
+  return with_energy(high);
 }
 
 }  // namespace crumble

@@ -2,7 +2,6 @@
 
 #include "dryer/brownian.hpp"
 #include "dryer/inertial.hpp"
-#include "dryer/pair_statistics.hpp"
 #include "dryer/start.hpp"
 
 namespace crumble {
@@ -10,11 +9,12 @@ namespace crumble {
 namespace {
 
 std::unique_ptr<Integrator> make_integrator(const DryingScene& scene, const DryingModel& model, double coarsening,
-                                            Agglomerate& state) {
+                                            int depth, Agglomerate& state) {
   if (scene.inertial) return std::make_unique<Inertial>(model, state, coarsening * scene.step, scene.seed);
   if (model.thermal_energy > 0) {
     BrownianControl control = scene.brownian;
     control.contact_step *= coarsening;
+    control.depth = depth;
     return std::make_unique<Brownian>(model, state, scene.seed, control);
   }
   OverdampedControl control = scene.control;
@@ -25,26 +25,47 @@ std::unique_ptr<Integrator> make_integrator(const DryingScene& scene, const Dryi
 
 }  // namespace
 
-DryingModel effective_model(const DryingScene& scene) {
-  DryingModel model = scene.model;
-  if (scene.softens_contacts())
-    model.material = softened(model.material, scene.smallest_radius(), model.thermal_energy, scene.softening);
-  return model;
-}
-
-DryingRun::DryingRun(const DryingScene& scene, double coarsening, Agglomerate state)
+DryingRun::DryingRun(const DryingScene& scene, double coarsening, Agglomerate state, std::size_t stage)
     : scene_(scene),
-      model_(effective_model(scene)),
+      coarsening_(coarsening),
+      stages_(softening_stages(scene)),
+      stage_(stage),
+      model_(softened_model(scene, stages_.at(stage).softening)),
       state_(std::move(state)),
-      integrator_(make_integrator(scene, model_, coarsening, state_)) {}
+      integrator_(make_integrator(scene, model_, coarsening, stages_.at(stage).depth, state_)) {}
 
 DryingRun::DryingRun(const DryingScene& scene, double coarsening)
-    : DryingRun(scene, coarsening,
-                random_suspension(scene.radius, scene.model.material.density, scene.model.droplet.initial_radius,
-                                  scene.seed)) {}
+    : DryingRun(
+          scene, coarsening,
+          random_suspension(scene.radius, scene.model.material.density, scene.model.droplet.initial_radius, scene.seed),
+          0) {}
 
-DryingRun::DryingRun(const DryingScene& scene, double coarsening, Agglomerate state, const Integrator::Memory& memory)
-    : DryingRun(scene, coarsening, std::move(state)) {
+DryingRun::DryingRun(const DryingScene& scene, double coarsening, Agglomerate state, const Integrator::Memory& memory,
+                     std::size_t stage)
+    : DryingRun(scene, coarsening, std::move(state), stage) {
+  integrator_->recall(memory);
+}
+
+void DryingRun::step() {
+  integrator_->step(integrator_->front().end());
+  if (scene_.diffuses() && stage_ + 1 < stages_.size() && outgrows_stage()) enter_next_stage();
+}
+
+bool DryingRun::outgrows_stage() const {
+  const std::size_t number = state_.particles.size();
+  const double R = droplet_radius();
+  if (static_cast<double>(state_.state.contacts.size()) > stages_[stage_].most_bonds * static_cast<double>(number))
+    return true;
+  for (std::size_t p = 0; p < number; ++p)
+    if (state_.state.position[p].norm() > R + state_.particles.radius[p]) return true;
+  return false;
+}
+
+void DryingRun::enter_next_stage() {
+  const Integrator::Memory memory = integrator_->memory();
+  ++stage_;
+  model_ = softened_model(scene_, stages_[stage_].softening);
+  integrator_ = make_integrator(scene_, model_, coarsening_, stages_[stage_].depth, state_);
   integrator_->recall(memory);
 }
 

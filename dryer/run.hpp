@@ -6,6 +6,7 @@
 #include "common/agglomerate/morphology.hpp"
 #include "dryer/integrator.hpp"
 #include "dryer/scene.hpp"
+#include "dryer/softening.hpp"
 
 namespace crumble {
 
@@ -15,9 +16,10 @@ class DryingRun {
   DryingRun(const DryingScene& scene, double coarsening);
 
   // A run that goes on from a saved state.
-  DryingRun(const DryingScene& scene, double coarsening, Agglomerate state, const Integrator::Memory& memory);
+  DryingRun(const DryingScene& scene, double coarsening, Agglomerate state, const Integrator::Memory& memory,
+            std::size_t stage);
 
-  void step() { integrator_->step(integrator_->front().end()); }
+  void step();
   bool finished() const { return state_.state.time >= integrator_->front().end(); }
 
   double droplet_radius() const { return integrator_->front().radius(state_.state.time); }
@@ -25,6 +27,7 @@ class DryingRun {
 
   const Agglomerate& state() const { return state_; }
   const Integrator& integrator() const { return *integrator_; }
+  std::size_t stage() const { return stage_; }  // of the softening, softening.hpp
 
   // Particles that the surface cuts, and the largest capillary force on one, N.
   struct Surface {
@@ -34,16 +37,18 @@ class DryingRun {
   Surface surface() const;
 
  private:
-  DryingRun(const DryingScene& scene, double coarsening, Agglomerate state);
+  DryingRun(const DryingScene& scene, double coarsening, Agglomerate state, std::size_t stage);
+  bool outgrows_stage() const;
+  void enter_next_stage();
 
   const DryingScene& scene_;
+  double coarsening_;
+  std::vector<SofteningStage> stages_;
+  std::size_t stage_;
   DryingModel model_;
   Agglomerate state_;
   std::unique_ptr<Integrator> integrator_;
 };
-
-// What the integrator is given: the scene's model, its contacts softened where the scene has it so.
-DryingModel effective_model(const DryingScene& scene);
 
 // What a run came to; the companion run of the error estimate leaves just this.
 struct DryingOutcome {

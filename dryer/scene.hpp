@@ -26,7 +26,7 @@ struct DryingScene {
   double softening = 1;  // of the contacts while particles diffuse
   double smallest_radius() const { return radius.back(); }
   double largest_radius() const { return radius.front(); }
-  bool softens_contacts() const { return softening > 1 && model.thermal_energy > 0 && !inertial; }
+  bool diffuses() const { return model.thermal_energy > 0 && !inertial; }
   std::vector<double> frames;  // fractions 1 - R/R0 at which one is due, in order, besides the start and the end
   bool estimate_error = true;
 };

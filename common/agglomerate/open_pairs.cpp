@@ -7,7 +7,7 @@ namespace crumble {
 void OpenPairs::update(const std::vector<Vector3>& position, const std::vector<double>& radius,
                        const std::vector<Contact>& bonds) {
   if (reference_.size() == position.size()) {
-    const double limit = 0.25 * skin_ * skin_;
+    const double limit = 0.25 * (skin_ - complete_) * (skin_ - complete_);
     bool moved = false;
     for (std::size_t p = 0; p < position.size() && !moved; ++p)
       moved = !((position[p] - reference_[p]).squaredNorm() < limit);

@@ -9,10 +9,11 @@
 
 namespace crumble {
 
-// Near pairs that are not bonded, sorted; found anew when something has moved half the skin.
+// Near pairs that are not bonded, sorted; found anew when something has moved so far that a pair with a gap below
+// `complete` might be missing, m.
 class OpenPairs {
  public:
-  explicit OpenPairs(double skin) : skin_(skin) {}
+  explicit OpenPairs(double skin, double complete = 0) : skin_(skin), complete_(complete) {}
   void update(const std::vector<Vector3>& position, const std::vector<double>& radius,
               const std::vector<Contact>& bonds);
   void open(Pair pair);
@@ -22,7 +23,7 @@ class OpenPairs {
   std::int64_t searches() const { return searches_; }
 
  private:
-  double skin_;
+  double skin_, complete_;
   NeighbourSearch search_;
   std::vector<Pair> pairs_;
   std::vector<Vector3> reference_;

@@ -98,6 +98,21 @@ TEST(BondBlock, is_the_law_of_the_reference) {
   EXPECT_GT(at_limit, 100u);  // springs did yield
 }
 
+TEST(BondBlock, its_normal_force_is_that_of_the_law_from_pull_off_to_deep_compression) {
+  const BondLaw law(ContactChoice{}, Material{}, a, a);
+  for (double gap = 0.999 * law.lost_gap(); gap > -100 * law.jkr.length; gap -= 0.01 * law.jkr.length) {
+    BondBlock block;
+    MotionBlock motion;
+    motion.resize(2);
+    block.add(make_bond(law, 0, 1, Vector3(2 * a, 0, 0), a, a, 0), 0, 1, law, a, a, law.lost_gap());
+    motion.position[0][1] = 2 * a + gap;
+    block.advance(motion);
+    const double tension = law.jkr.tension(gap);
+    // The polynomial's error, and rounding of the gap.
+    ASSERT_NEAR(-motion.force[0][1], tension, 1e-8 * std::max(std::abs(tension), law.pull_off_force())) << gap;
+  }
+}
+
 TEST(BondBlock, a_bond_beyond_its_reach_is_named_and_pulls_no_more) {
   const BondLaw law(ContactChoice{}, Material{}, a, a);
   BondBlock block;

@@ -141,11 +141,13 @@ TEST(ExpectedCost, the_number_of_steps_agrees_with_a_run) {
 
 TEST(ExpectedCost, the_steps_of_a_brownian_run_are_its_own) {
   DryingScene s = brownian("peclet = 10");
-  s.radius.resize(2);
-  s.model.droplet.lifetime /= 2000;
+  s.radius.resize(10);
+  s.model.droplet.lifetime /= 10;
   DryingRun run(s, 1);
   while (!run.finished()) run.step();
-  EXPECT_NEAR(expected_cost(s).steps, static_cast<double>(run.integrator().statistics().steps), 1);  // the last is cut
+  // When the softer stages end is estimated.
+  const auto steps = static_cast<double>(run.integrator().statistics().steps);
+  EXPECT_NEAR(expected_cost(s).steps, steps, 0.3 * steps);
 }
 
 }  // namespace

@@ -1,0 +1,48 @@
+#include "dryer/softening.hpp"
+
+#include <stdexcept>
+
+#include "dryer/drag.hpp"
+#include "dryer/pair_statistics.hpp"
+
+namespace crumble {
+
+namespace {
+
+// Bonds last less than a hundredth of the time in which a particle diffuses its radius.
+bool bonds_are_brief(const DryingScene& scene) {
+  const double a = scene.smallest_radius(), kT = scene.model.thermal_energy;
+  const double D = kT / drag_coefficient(scene.model.viscosity, a);
+  return pair_statistics(Jkr(scene.model.material, a), kT, 2 * D).lifetime < 0.01 * a * a / D;
+}
+
+// A bond worth hardly more than kT cannot be much wider without holding pairs more.
+bool can_be_softened(const DryingScene& scene, double factor) {
+  try {
+    softened_model(scene, factor);
+    return true;
+  } catch (const std::invalid_argument&) {
+    return false;
+  }
+}
+
+}  // namespace
+
+std::vector<SofteningStage> softening_stages(const DryingScene& scene) {
+  const SofteningStage last{scene.softening, scene.brownian.depth};
+  if (!scene.diffuses() || scene.softening == 1 || !bonds_are_brief(scene)) return {last};
+  std::vector<SofteningStage> stages;
+  for (const SofteningStage& stage : {SofteningStage{4, 5, 0.3}, SofteningStage{2.5, 5, 1}})
+    if (stage.softening > scene.softening && can_be_softened(scene, stage.softening)) stages.push_back(stage);
+  stages.push_back(last);
+  return stages;
+}
+
+DryingModel softened_model(const DryingScene& scene, double softening) {
+  DryingModel model = scene.model;
+  if (scene.diffuses())
+    model.material = softened(model.material, scene.smallest_radius(), model.thermal_energy, softening);
+  return model;
+}
+
+}  // namespace crumble
