@@ -1,0 +1,117 @@
+"""How must I dry to get a granule that breaks at this stress? Granules over Peclet number, number and solids:
+
+    map.py FOLDER PE_N_R0_SEED...      (FOLDER/STEM.json of dryer, FOLDER/STEM-load.json of rigidstress; writes map.csv, map.svg)
+
+Prints the table and, for a few stresses, which Peclet number gives them.
+"""
+
+import csv
+import json
+import math
+import pathlib
+import statistics
+import sys
+
+from figure import BLACK, BLUE, GREEN, ORANGE, PURPLE, pyplot, save
+
+QUANTITIES = [("d_c_nm", "d_c, nm"), ("h_c_over_d_c", "h_c/d_c"), ("porosity", "porosity"), ("coordination", "coordination"),
+              ("critical_stress_pa", "critical stress, Pa")]
+WATER = 1e-3  # Pa s
+
+
+def read(folder, stem):
+    dried = json.loads((folder / f"{stem}.json").read_text())
+    load = json.loads((folder / f"{stem}-load.json").read_text())["results"]
+    r = dried["results"]
+    # The flow stress at which the weakest contact gives way in the orientation to which a granule settles in elongation.
+    return {"peclet": r["inputs"]["peclet"], "number": r["inputs"]["number"], "solids": r["inputs"]["solids_fraction"],
+            "d_c_nm": r["d_c_nm"], "h_c_over_d_c": r["h_c_over_d_c"], "porosity": r["porosity"],
+            "coordination": r["coordination"], "fragments": r["fragments"],
+            "critical_stress_pa": load["elongation"]["critical_stress_settled_pa"], "cpu_s": dried["cpu_s"]}
+
+
+def rows(runs):
+    for key in sorted({(run["peclet"], run["number"], run["solids"]) for run in runs}):
+        group = [run for run in runs if (run["peclet"], run["number"], run["solids"]) == key]
+        row = {"peclet": key[0], "number": key[1], "solids": key[2], "granules": len(group)}
+        for name, _ in QUANTITIES:
+            values = [run[name] for run in group]
+            row |= {name: statistics.fmean(values), name + "_lowest": min(values), name + "_highest": max(values)}
+        row["fragments"] = statistics.fmean(run["fragments"] for run in group)
+        if row["fragments"] > key[1] / 10:  # dust, no granule: what is left of it has a strength, but not that of a granule
+            row |= dict.fromkeys(("critical_stress_pa", "critical_stress_pa_lowest", "critical_stress_pa_highest"), math.nan)
+        row["critical_shear_rate_in_water_per_s"] = row["critical_stress_pa"] / WATER
+        row["cpu_s"] = statistics.fmean(run["cpu_s"] for run in group)
+        yield row
+
+
+def usual(table):
+    """Number and solids of the scan over the Peclet number: what most rows share."""
+    return max(((row["number"], row["solids"]) for row in table),
+               key=lambda pair: sum((row["number"], row["solids"]) == pair for row in table))
+
+
+def show(table):
+    print("| Pe | N | solids % | granules | " + " | ".join(label for _, label in QUANTITIES) + " | fragments | CPU s |")
+    print("|---" * (6 + len(QUANTITIES)) + "|")
+    for row in table:
+        cells = ["dust" if math.isnan(row[name]) else f"{row[name]:.3g} ({row[name + '_lowest']:.3g} to {row[name + '_highest']:.3g})"
+                 for name, _ in QUANTITIES]
+        print(f"| {row['peclet']:g} | {row['number']} | {100 * row['solids']:.2g} | {row['granules']} | " + " | ".join(cells) +
+              f" | {row['fragments']:.1f} | {row['cpu_s']:.3g} |")
+    print("\nMean (lowest to highest of the granules). Critical stress: rigid, planar elongation, settled, particles of 100 nm; it\n"
+          "goes as surface energy over radius. The shear rate that reaches it is the stress over the viscosity of the liquid.\n")
+    scan = [row for row in table if (row["number"], row["solids"]) == usual(table) and not math.isnan(row["critical_stress_pa"])]
+    for low, high in zip(scan, scan[1:]):
+        a, b = sorted((low["critical_stress_pa"], high["critical_stress_pa"]))
+        for stress in (1000, 1500, 2000, 3000, 5000, 7000):
+            if a <= stress < b:
+                part = math.log(stress / low["critical_stress_pa"]) / math.log(high["critical_stress_pa"] / low["critical_stress_pa"])
+                peclet = math.exp(math.log(low["peclet"]) + part * math.log(high["peclet"] / low["peclet"]))
+                print(f"{stress} Pa ({stress / WATER:.1g} 1/s in water): dry at Pe = {peclet:.2g}")
+
+
+def panel(axes, scan, x, name, label, colour):
+    places = [row[x] for row in scan]
+    axes.plot(places, [row[name] for row in scan], "o-", color=colour, markersize=3)
+    axes.fill_between(places, [row[name + "_lowest"] for row in scan], [row[name + "_highest"] for row in scan], color=colour,
+                      alpha=0.2, linewidth=0)
+    axes.set(ylabel=label, xscale="log", ylim=(0, None))
+
+
+def draw(table, out):
+    number, solids = usual(table)
+    scans = [("peclet", "Pe", [r for r in table if (r["number"], r["solids"]) == (number, solids)]),
+             ("number", "N", [r for r in table if r["number"] != number]),
+             ("solids", "solids", [r for r in table if r["number"] == number and r["solids"] != solids])]
+    for k in (1, 2):
+        if scans[k][2]:  # the point that it shares with the scan over Pe
+            fixed = scans[k][2][0]["peclet"]
+            shared = [r for r in scans[0][2] if r["peclet"] == fixed]
+            scans[k] = (scans[k][0], f"{scans[k][1]} (Pe = {fixed:g})", sorted(scans[k][2] + shared, key=lambda r: r[scans[k][0]]))
+    scans = [scan for scan in scans if scan[2]]
+    figure, panels = pyplot.subplots(len(QUANTITIES), len(scans), figsize=(3 * len(scans), 9), squeeze=False, layout="constrained")
+    for column, (x, title, scan) in enumerate(scans):
+        for line, ((name, label), colour) in enumerate(zip(QUANTITIES, (BLACK, BLUE, GREEN, PURPLE, ORANGE))):
+            panel(panels[line][column], scan, x, name, label, colour)
+        panels[-1][column].set(xlabel=title)
+        right = panels[-1][column].secondary_yaxis("right", functions=(lambda s: s / WATER, lambda g: g * WATER))
+        right.set_ylabel("shear rate in water, 1/s")
+    save(figure, out)
+
+
+def main(folder, stems):
+    folder = pathlib.Path(folder)
+    table = list(rows([read(folder, stem) for stem in stems]))
+    with (folder / "map.csv").open("w", newline="") as file:
+        writer = csv.DictWriter(file, table[0].keys())
+        writer.writeheader()
+        writer.writerows(table)
+    draw(table, folder / "map.svg")
+    show(table)
+
+
+if __name__ == "__main__":
+    if len(sys.argv) < 3:
+        sys.exit(__doc__)
+    main(sys.argv[1], sys.argv[2:])
