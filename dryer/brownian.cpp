@@ -164,7 +164,7 @@ void Brownian::fast_step(int step) {
 void Brownian::predict(int step) {
   const std::size_t size = block_.radius.size();
   for (int k = 0; k < 6; ++k) {
-    const double* dW = &noise_[(static_cast<std::size_t>(step) * 6 + static_cast<std::size_t>(k)) * size];
+    const double* dW = noise_.data() + (static_cast<std::size_t>(step) * 6 + static_cast<std::size_t>(k)) * size;
     const double* noise = block_.noise[k / 3].data();
     double *x = motion_.position[k % 3].data(), *w = motion_.rotation[k % 3].data(), *ahead = block_.ahead[k].data();
     double* load = k < 3 ? motion_.force[k].data() : motion_.torque[k - 3].data();

@@ -45,15 +45,16 @@ struct Draws {
     const Purpose purpose[3] = {Purpose::brownian_path, Purpose::brownian_path, Purpose::brownian_path_rest};
     for (std::size_t d = 0; d < 3; ++d)
       random_words(seed, purpose[d], particle, node(level, even + (d == 1)),
-                   {&words[row_of[d][0] * count + at], &words[row_of[d][1] * count + at],
-                    &words[row_of[d][2] * count + at], &words[row_of[d][3] * count + at]});
+                   {words.data() + row_of[d][0] * count + at, words.data() + row_of[d][1] * count + at,
+                    words.data() + row_of[d][2] * count + at, words.data() + row_of[d][3] * count + at});
   }
   void transform() {
     for (std::size_t k = 0; k < 12; k += 2)
-      normals(&words[k * count], &words[(k + 1) * count], count, &xi[k * count], &xi[(k + 1) * count]);
+      normals(words.data() + k * count, words.data() + (k + 1) * count, count, xi.data() + k * count,
+              xi.data() + (k + 1) * count);
   }
   const double* row(int component, bool odd) const {
-    return &xi[static_cast<std::size_t>(component + (odd ? 6 : 0)) * count];
+    return xi.data() + static_cast<std::size_t>(component + (odd ? 6 : 0)) * count;
   }
 };
 
@@ -66,9 +67,10 @@ void BrownianPath::whole(std::span<const std::uint32_t> particle, std::uint64_t 
   words.resize(4 * count);
   out.resize(4 * count);
   random_words(seed_, Purpose::brownian_path, particle, node(0, interval),
-               {&words[0], &words[count], &words[2 * count], &words[3 * count]});
+               {words.data(), words.data() + count, words.data() + 2 * count, words.data() + 3 * count});
   for (std::size_t k = 0; k < 4; k += 2)
-    normals(&words[k * count], &words[(k + 1) * count], count, &out[k * count], &out[(k + 1) * count]);
+    normals(words.data() + k * count, words.data() + (k + 1) * count, count, out.data() + k * count,
+            out.data() + (k + 1) * count);
 }
 
 void BrownianPath::fill(std::span<const std::uint32_t> particle, std::uint64_t interval, int depth, std::size_t stride,
@@ -81,15 +83,15 @@ void BrownianPath::fill(std::span<const std::uint32_t> particle, std::uint64_t i
   draws.draw(0, seed_, particle, 0, interval & ~std::uint64_t{1});
   draws.transform();
   for (int k = 0; k < 6; ++k)
-    std::copy_n(draws.row(k, interval & 1), count, &out[static_cast<std::size_t>(k) * stride]);
+    std::copy_n(draws.row(k, interval & 1), count, out.data() + static_cast<std::size_t>(k) * stride);
 
   // Each increment has unit variance in units of its own interval: left = (W + xi)/sqrt(2), right = (W - xi)/sqrt(2).
   const double half = std::sqrt(0.5);
   const auto split = [&](std::size_t m, std::size_t pair, bool odd) {
     for (int k = 0; k < 6; ++k) {
       const std::size_t shift = static_cast<std::size_t>(k) * stride;
-      const double *parent = &out[m * row + shift], *xi = draws.row(k, odd) + pair * count;
-      double *left = &out[2 * m * row + shift], *right = &out[(2 * m + 1) * row + shift];
+      const double *parent = out.data() + m * row + shift, *xi = draws.row(k, odd) + pair * count;
+      double *left = out.data() + 2 * m * row + shift, *right = out.data() + (2 * m + 1) * row + shift;
       for (std::size_t p = 0; p < count; ++p) {
         const double W = parent[p], x = xi[p];
         right[p] = half * (W - x);
