@@ -51,7 +51,8 @@ def run(name, seed, settings, scene=SCENE):
     results, seconds = report["results"], report["cpu_s"]
     print(f"  {name}, seed {seed}: {results['contacts']} contacts, {seconds:.1f} s", file=sys.stderr, flush=True)
     within = {f"within_{gap}_a".replace(".", "_"): pairs_within(ROOT / f"{out}.h5", gap) for gap in (0.02, 0.05)}
-    return {**results, **within, "seed": seed, "cpu_s": seconds}
+    overlap = report["errors"]["largest_overlap_over_a"]["value"]
+    return {**results, **within, "overlap": overlap, "seed": seed, "cpu_s": seconds}
 
 
 def pairs_within(name, fraction):
