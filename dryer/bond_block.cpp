@@ -19,12 +19,10 @@ void MotionBlock::resize(std::size_t count) {
 
 template <class Visit>
 void BondBlock::each_array(Visit visit) {
-  for (Triple* triple :
-       {&separation_, &normal_, &sliding_, &rolling_, &force_, &torque_i_, &torque_j_, &apart_, &turn_i_, &turn_j_})
+  for (Triple* triple : {&normal_, &sliding_, &rolling_, &apart_, &turn_i_, &turn_j_})
     for (auto& array : *triple) visit(array);
-  for (auto* scalar : {&twisting_, &gap_, &a_i_, &a_j_, &inverse_length_, &inverse_reach_, &pull_off_, &lost_gap_,
-                       &k_s_, &k_t_, &k_r_, &most_sliding_, &most_twisting_, &most_rolling_})
-    visit(*scalar);
+  for (auto* scalar : {&twisting_, &gap_, &lost_gap_}) visit(*scalar);
+  for (auto& array : constants_) visit(array);
 }
 
 void BondBlock::clear() {
@@ -47,26 +45,30 @@ void BondBlock::add(const Contact& bond, std::int32_t i, std::int32_t j, const B
   put(j_, j);
   put(born_, bond.born);
   for (int k = 0; k < 3; ++k) {
-    put(separation_[k], (a_i + a_j + bond.gap) * bond.normal[k]);
     put(normal_[k], bond.normal[k]);
     put(sliding_[k], bond.sliding[k]);
     put(rolling_[k], bond.rolling[k]);
-    for (Triple* each : {&force_, &torque_i_, &torque_j_, &apart_, &turn_i_, &turn_j_}) put((*each)[k], 0.0);
+    for (Triple* each : {&apart_, &turn_i_, &turn_j_}) put((*each)[k], 0.0);
   }
   put(twisting_, bond.twisting);
   put(gap_, bond.gap);
-  put(a_i_, a_i);
-  put(a_j_, a_j);
-  put(inverse_length_, 1 / law.jkr.length);
-  put(inverse_reach_, 1 / (a_i + a_j));
-  put(pull_off_, law.jkr.pull_off_force);
   put(lost_gap_, lost_gap);
-  put(k_s_, law.k_s);
-  put(k_t_, law.k_t);
-  put(k_r_, law.k_r);
-  put(most_sliding_, farthest(law.F_s_crit, law.k_s));
-  put(most_twisting_, farthest(law.M_t_crit, law.k_t));
-  put(most_rolling_, farthest(law.M_r_crit, law.k_r));
+  const std::array<double, constant_count> value = {a_i,
+                                                    a_j,
+                                                    1 / (a_i + a_j),
+                                                    1 / law.jkr.length,
+                                                    law.jkr.pull_off_force,
+                                                    law.k_s,
+                                                    law.k_t,
+                                                    law.k_r,
+                                                    farthest(law.F_s_crit, law.k_s),
+                                                    farthest(law.M_t_crit, law.k_t),
+                                                    farthest(law.M_r_crit, law.k_r)};
+  if (count_ == 0) uniform_ = true;
+  for (std::size_t c = 0; c < constant_count; ++c) {
+    put(constants_[c], value[c]);
+    uniform_ = uniform_ && value[c] == constants_[c][0];
+  }
   ++count_;
 }
 
@@ -92,7 +94,6 @@ void BondBlock::store(std::size_t b, Contact& contact) const {
 
 namespace {
 
-// One vector register of numbers, and vectors of three.
 using Lane = Eigen::Array<double, lanes, 1>;
 
 struct V {
@@ -160,16 +161,19 @@ void BondBlock::follow(const MotionBlock& motion) {
   }
 }
 
-void BondBlock::move(std::size_t b) {
-  const V D = read(apart_, b), moved = D - read(separation_, b);
-  const V Wi = read(turn_i_, b), Wj = read(turn_j_, b), W = Wj - Wi;
-  const Lane a_i = read(a_i_, b), a_j = read(a_j_, b), squared = dot(D, D), inverse = squared.rsqrt(),
-             distance = squared * inverse;
-  const V n0 = read(normal_, b), n = inverse * D, sum = n0 + n;
+// Of `lanes` bonds from b on, in one go from positions to loads: what is needed only in between stays in registers, and
+// what is read of a few hundred bonds in the fastest cache.
+BondBlock::Loads BondBlock::move(std::size_t b) {
+  const auto constant = [&](Constant which) { return read(constants_[which], uniform_ ? 0 : b); };
+  const V Wi = read(turn_i_, b), Wj = read(turn_j_, b), W = Wj - Wi, D = read(apart_, b);
+  const Lane a_i = constant(radius_i), a_j = constant(radius_j), reach = a_i + a_j;
+  const Lane squared = dot(D, D), inverse = squared.rsqrt(), distance = squared * inverse, gap = distance - reach;
+  const V n0 = read(normal_, b), n = inverse * D, sum = n0 + n, moved = D - (reach + read(gap_, b)) * n0;
   // The normal turns little in a step: 1/|sum| and 1/(1 + n0 n) to second order in 1 - n0 n.
   const Lane bend = 1 - dot(n0, n), half = 0.5 + bend * (0.25 + 0.125 * bend);
   const V mid = (0.5 + bend * (0.125 + 0.046875 * bend)) * sum;
-  const V arm = (distance * read(inverse_reach_, b)) * (a_i * Wi + a_j * Wj);
+  const Lane stretch = distance * constant(inverse_reach);
+  const V arm = stretch * (a_i * Wi + a_j * Wj);
   const Lane twist = dot(mid, W);
   const V slide = moved - dot(mid, moved) * mid - cross(arm, mid), roll = W - twist * mid;
   // Carried along: the smallest rotation from n0 to n, then the mean spin about n (sine and cosine to third order).
@@ -178,56 +182,49 @@ void BondBlock::move(std::size_t b) {
     const V v = history - (half * dot(n, history)) * sum, carried = c * v + s * cross(n, v) + increase;
     return carried - dot(n, carried) * n;
   };
-  const V sliding = carry(read(sliding_, b), slide), rolling = carry(read(rolling_, b), roll);
-  const Lane most = read(most_twisting_, b);
-  write(separation_, b, D);
+  V sliding = carry(read(sliding_, b), slide), rolling = carry(read(rolling_, b), roll);
+  sliding = cap(dot(sliding, sliding), constant(most_sliding)) * sliding;
+  rolling = cap(dot(rolling, rolling), constant(most_rolling)) * rolling;
+  const Lane most = constant(most_twisting), twisting = (read(twisting_, b) + twist).min(most).max(-most);
   write(normal_, b, n);
-  write(sliding_, b, cap(dot(sliding, sliding), read(most_sliding_, b)) * sliding);
-  write(rolling_, b, cap(dot(rolling, rolling), read(most_rolling_, b)) * rolling);
-  write(twisting_, b, (read(twisting_, b) + twist).min(most).max(-most));
-  write(gap_, b, distance - (a_i + a_j));
+  write(sliding_, b, sliding);
+  write(rolling_, b, rolling);
+  write(twisting_, b, twisting);
+  write(gap_, b, gap);
+
+  const Lane root = jkr_root(gap.min(read(lost_gap_, b)) * constant(inverse_length)), cubed = root * root * root;
+  const Lane tension = 4 * constant(pull_off) * cubed * (1 - cubed);
+  const V F = -constant(k_s) * sliding;
+  const V M = (-constant(k_t) * twisting) * n - constant(k_r) * rolling;
+  const V turn = stretch * cross(n, F), force = F - tension * n, on_i = Lane::Constant(-1) * (M + a_i * turn),
+          on_j = M - a_j * turn;
+  return {{force.x, force.y, force.z}, {on_i.x, on_i.y, on_i.z}, {on_j.x, on_j.y, on_j.z}};
 }
 
-void BondBlock::load(std::size_t b) {
-  const Lane gap = read(gap_, b), c = jkr_root(gap.min(read(lost_gap_, b)) * read(inverse_length_, b));
-  const Lane cubed = c * c * c, tension = 4 * read(pull_off_, b) * cubed * (1 - cubed);
-  const V n = read(normal_, b);
-  const V F = -read(k_s_, b) * read(sliding_, b);
-  const V M = (-read(k_t_, b) * read(twisting_, b)) * n - read(k_r_, b) * read(rolling_, b);
-  const V turn = (1 + gap * read(inverse_reach_, b)) * cross(n, F);
-  write(force_, b, F - tension * n);
-  write(torque_i_, b, Lane::Constant(-1) * (M + read(a_i_, b) * turn));
-  write(torque_j_, b, M - read(a_j_, b) * turn);
-}
-
-void BondBlock::collect(MotionBlock& motion) {
-  lost_.clear();
-  const std::size_t count = size();
-  double shallowest = 0;
-  for (std::size_t b = 0; b < count; ++b) {
+void BondBlock::collect(std::size_t first, const Loads& loads, MotionBlock& motion) {
+  const std::size_t count = std::min(lanes, count_ - first);
+  for (std::size_t l = 0; l < count; ++l) {
+    const std::size_t b = first + l;
     if (gap_[b] > lost_gap_[b]) {
       lost_.push_back(static_cast<std::int32_t>(b));
       continue;
     }
     const std::int32_t i = i_[b], j = j_[b];
-    for (int k = 0; k < 3; ++k) {
-      motion.force[k][i] -= force_[k][b];
-      motion.force[k][j] += force_[k][b];
-      motion.torque[k][i] += torque_i_[k][b];
-      motion.torque[k][j] += torque_j_[k][b];
+    const auto lane = static_cast<Eigen::Index>(l);
+    for (std::size_t k = 0; k < 3; ++k) {
+      motion.force[k][i] -= loads.force[k][lane];
+      motion.force[k][j] += loads.force[k][lane];
+      motion.torque[k][i] += loads.torque_i[k][lane];
+      motion.torque[k][j] += loads.torque_j[k][lane];
     }
-    shallowest = std::min(shallowest, gap_[b]);
+    deepest_ = std::max(deepest_, -gap_[b]);
   }
-  deepest_ = std::max(deepest_, -shallowest);
 }
 
 void BondBlock::advance(MotionBlock& motion) {
+  lost_.clear();
   follow(motion);
-  for (std::size_t first = 0; first < count_; first += lanes) {
-    move(first);
-    load(first);
-  }
-  collect(motion);
+  for (std::size_t first = 0; first < count_; first += lanes) collect(first, move(first), motion);
 }
 
 }  // namespace crumble

@@ -52,21 +52,38 @@ class BondBlock {
   std::int32_t second(std::size_t bond) const { return j_[bond]; }
 
  private:
+  using Lane = Eigen::Array<double, lanes, 1>;  // one vector register of numbers
+  struct Loads {
+    std::array<Lane, 3> force, torque_i, torque_j;  // on j; torques on both, N and N m
+  };
   void follow(const MotionBlock& motion);
-  void move(std::size_t first);  // lanes bonds from `first` on
-  void load(std::size_t first);
-  void collect(MotionBlock& motion);
+  Loads move(std::size_t first);
+  void collect(std::size_t first, const Loads& loads, MotionBlock& motion);
+
+  // What depends on the pair's radii and the material alone. most: displacement at which a spring yields.
+  enum Constant : std::size_t {
+    radius_i,
+    radius_j,
+    inverse_reach,
+    inverse_length,
+    pull_off,
+    k_s,
+    k_t,
+    k_r,
+    most_sliding,
+    most_twisting,
+    most_rolling,
+    constant_count
+  };
 
   std::size_t count_ = 0;
   std::vector<std::int32_t> i_, j_, lost_;
   std::vector<std::int64_t> born_;
   Triple apart_, turn_i_, turn_j_;  // of the two ends now: x_j - x_i, m, and their rotations
-  Triple separation_, normal_, sliding_, rolling_;
-  std::vector<double> twisting_, gap_;
-  std::vector<double> a_i_, a_j_;
-  std::vector<double> inverse_length_, inverse_reach_, pull_off_, lost_gap_, k_s_, k_t_, k_r_;
-  std::vector<double> most_sliding_, most_twisting_, most_rolling_;  // displacements at which the springs yield
-  Triple force_, torque_i_, torque_j_;                               // on j; torques of both, m and N
+  Triple normal_, sliding_, rolling_;
+  std::vector<double> twisting_, gap_, lost_gap_;
+  std::array<std::vector<double>, constant_count> constants_;
+  bool uniform_ = true;  // all bonds have the same constants
   double deepest_ = 0;
 
   template <class Visit>

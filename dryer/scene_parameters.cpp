@@ -111,7 +111,7 @@ const ParameterTable& drying_parameters() {
                 "overdamped with Brownian motion: the short step of particles in touch, in the relaxation time "
                 "6 pi mu a/k_n of a contact")
             .above(0)
-            .at_most(0.2)
+            .at_most(0.15)
             .by_default(0.15),
         P::real("softening", "",
                 "overdamped with Brownian motion: width of the bond in that of the material's; its strength is such "
