@@ -29,8 +29,8 @@ double drying_until(const DryingScene& s, double packing) {
   return std::clamp(1 - std::pow(solids / packing, 2.0 / 3), 0.0, 1.0);
 }
 
-// The bonds of a stage of softening are there when the solids take up 0.115 and 0.26 of the droplet, nearly all
-// particles take short steps when it is 0.5.
+// The bonds that end a stage of softening are there when the solids take up 0.115 and 0.26 of the droplet. From then on
+// nearly all particles take short steps and have bonds.
 ExpectedCost brownian_cost(const DryingScene& s) {
   const double a = s.smallest_radius(), N = static_cast<double>(s.radius.size());
   const auto stages = softening_stages(s);
@@ -42,7 +42,8 @@ ExpectedCost brownian_cost(const DryingScene& s) {
     const double step = Brownian::short_step(softened_model(s, stages[k].softening), a, s.brownian.contact_step);
     const double short_steps = std::max(end - begin, 0.0) * s.model.droplet.lifetime / step;
     cost.steps += std::ldexp(short_steps, -stages[k].depth);
-    cost.seconds += (last ? 1.0e-7 : 2.5e-8) * N * short_steps;
+    const double packed = std::clamp((end - drying_until(s, 0.26)) / std::max(end - begin, 1e-9), 0.0, 1.0);
+    cost.seconds += (1e-8 + 9e-8 * packed) * N * short_steps;
     begin = end;
   }
   return cost;

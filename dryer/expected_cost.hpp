@@ -15,7 +15,8 @@ struct ExpectedCost {
 // From counts and times of runs of ours (November 2026, Intel Xeon, one core):
 //   overdamped, D = 0: one step for each 0.8 of the largest displacement that the front advances, and 5.5 for each
 //     particle, whose contacts end steps; 6 microseconds a particle and step at N = 30, 9 at 115, 12 at 400
-//   overdamped, Brownian: fixed steps; 2.2 microseconds a particle and long step at N = 30, 1.95 at 102, Pe = 10
+//   overdamped, Brownian: the fixed steps of each stage of softening; 0.01 microseconds a particle and short step while
+//     bonds are few, 0.1 in the packed core, N = 85 to 102
 //   inertial: fixed step; 0.05 microseconds a particle and step
 // Steps at D = 0 agree within 25 % for N = 30 to 400; take the time as right within a factor of 2 to 3.
 ExpectedCost expected_cost(const DryingScene& scene);

@@ -366,7 +366,7 @@ TEST_P(BondedFraction, of_a_pair_in_a_closed_sphere_is_that_of_the_exact_law) {
   EXPECT_LT(error, 0.1 * mean);
 }
 
-INSTANTIATE_TEST_SUITE_P(Softening, BondedFraction, ::testing::Values(1.0, 2.0));
+INSTANTIATE_TEST_SUITE_P(Softening, BondedFraction, ::testing::Values(1.0, 2.0, 4.0));
 
 // The drag on what is dry only lets it come to rest. Paths part, so means over seeds are compared; their standard
 // errors are about 1 % in d_c and 2 % in contacts. (At Pe = 300 ten times the drag leaves 13 % fewer contacts: see the
