@@ -10,8 +10,19 @@
 
 namespace crumble {
 
+namespace {
+
+// In units of the largest displacement: what a step is refused for, and how much farther the few may go that snap.
+constexpr double too_far = 1.5, snap = 5;
+
+// How much nearer a pair may come in one step, in the smallest radius. Pairs within it are always listed, so that what
+// a step finds does not depend on when the list was made, and so not on a restart.
+double approach(const OverdampedControl& control) { return 2 * too_far * snap * control.largest_displacement; }
+
+}  // namespace
+
 Overdamped::Overdamped(const DryingModel& model, Agglomerate& state, const OverdampedControl& control)
-    : Integrator(model, state, 0.2),
+    : Integrator(model, state, 0.2 + approach(control), approach(control)),
       control_(control),
       implicit_(model, state, laws_),
       rate_(state.particles.size(), Vector6::Zero()) {
@@ -92,12 +103,12 @@ double Overdamped::displacement() {
   if (moves_.empty()) return 0;
   const auto place = moves_.end() - 1 - static_cast<std::ptrdiff_t>(moves_.size() / 1000);
   std::nth_element(moves_.begin(), place, moves_.end());
-  return std::max(*place, *std::max_element(place, moves_.end()) / 5);
+  return std::max(*place, *std::max_element(place, moves_.end()) / snap);
 }
 
 Vector3 Overdamped::moved(std::int32_t p) const {
   const Vector3& x = state_.state.position[p];
-  return activity_.is_active(p) ? Vector3(x + implicit_.translation(p)) : x;
+  return implicit_.moves(p) ? Vector3(x + implicit_.translation(p)) : x;
 }
 
 // Open pairs that overlap by more than the precision at the end of the step, each with the fraction of the step at
@@ -121,8 +132,8 @@ void Overdamped::find_touches() {
 // Bonds them for what is left of the step after their touch: their springs start with what they must not remember.
 void Overdamped::bond_touches() {
   const auto motion = [&](std::int32_t p) {
-    return activity_.is_active(p) ? Motion{implicit_.translation(p), implicit_.rotation(p)}
-                                  : Motion{Vector3::Zero(), Vector3::Zero()};
+    return implicit_.moves(p) ? Motion{implicit_.translation(p), implicit_.rotation(p)}
+                              : Motion{Vector3::Zero(), Vector3::Zero()};
   };
   for (const auto& [pair, fraction] : touches_) {
     const Motion i = motion(pair.i), j = motion(pair.j);
@@ -160,7 +171,7 @@ Overdamped::Attempt Overdamped::attempt(double dt) {
     statistics_.newton_iterations += outcome.iterations;
     if (!outcome.converged) return {false, 0.3 * dt};
     const double moved = displacement() / control_.largest_displacement;
-    if (moved > 1.5) return {false, std::max(0.2, 0.9 / moved) * dt};
+    if (moved > too_far) return {false, std::max(0.2, 0.9 / moved) * dt};
     find_touches();
     // What still touches after ten rounds is bonded at the end of the step, overlap and all.
     if (touches_.empty() || round == 10) {
