@@ -98,7 +98,8 @@ class Page:
                  "<p>±: half of the 95 % interval of the mean over granules. The paper's values are of one granule each.</p>",
                  figure(self.results / "figure3.svg", "Fig. 3. Lines: mean over granules; bands: lowest and highest."),
                  figure(self.results / "drying-hollow.png", "Drying at Pe → ∞."),
-                 figure(self.results / "drying-compact.png", "Drying at the lowest Péclet number made."))
+                 *(figure(path, "Drying at a finite Péclet number.") for name in ("compact", "intermediate")
+                   if name in self.seeds and (path := self.results / f"drying-{name}.png").exists()))
 
     def difference(self):
         if "compact" not in self.numbers or "adhesive" not in self.numbers:
@@ -113,7 +114,7 @@ class Page:
     def strength(self):
         folder = self.results / "strength"
         rows = []
-        for name in ("compact", "adhesive", "hollow"):
+        for name in ("compact", "intermediate", "adhesive", "hollow"):
             reports = [load(path) for seed in self.seeds.get(name, []) if (path := folder / f"{name}-{seed}.json").exists()]
             if not reports:
                 continue
