@@ -14,8 +14,8 @@
 
 namespace crumble {
 
-// Begin it where the work begins: wall time counts from there, CPU time and peak memory are the whole process's, and what
-// earlier processes of the same run used is added.
+// Begin it where the work begins: wall time counts from there, CPU time and peak memory are the whole process's, and
+// what earlier processes of the same run used is added.
 class Report {
  public:
   // Nothing (null in JSON) says that there is no such number.
