@@ -12,8 +12,8 @@ namespace crumble::test {
 class Folder {
  public:
   Folder() {
-    // The six X are what mkdtemp replaces.
-    std::string name = (std::filesystem::temp_directory_path() / "crumble-XXXXXX").string();
+    // mkdtemp replaces six X at the end.
+    std::string name = (std::filesystem::temp_directory_path() / "crumble-").string() + std::string(6, 'X');
     if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
     path_ = name;
   }
