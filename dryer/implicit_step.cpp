@@ -25,9 +25,13 @@ void ImplicitStep::set_network(const std::vector<std::int32_t>& active) {
   matrix_.set_pattern(static_cast<std::int32_t>(active_.size()), pairs);
 }
 
-Vector3 ImplicitStep::translation(std::int32_t particle) const { return increment_[slot_[particle]].head<3>(); }
+Vector3 ImplicitStep::translation(std::int32_t particle) const {
+  if (slot_[particle] < 0) return Vector3::Zero();
+  return increment_[slot_[particle]].head<3>();
+}
 
 Vector3 ImplicitStep::rotation(std::int32_t particle) const {
+  if (slot_[particle] < 0) return Vector3::Zero();
   return increment_[slot_[particle]].tail<3>() / state_.particles.radius[particle];
 }
 

@@ -38,8 +38,7 @@ class ImplicitStep {
   // Per active particle: translation (m) and rotation times radius (m).
   std::vector<Vector6>& increments() { return increment_; }
   const std::vector<Vector6>& increments() const { return increment_; }
-  // Whether it is among those of set_network(); the others stand still and have no increment.
-  bool moves(std::int32_t particle) const { return slot_[particle] >= 0; }
+  // Of any particle: those that set_network() was not told of stand still.
   Vector3 translation(std::int32_t particle) const;
   Vector3 rotation(std::int32_t particle) const;  // rad
 

@@ -106,10 +106,7 @@ double Overdamped::displacement() {
   return std::max(*place, *std::max_element(place, moves_.end()) / snap);
 }
 
-Vector3 Overdamped::moved(std::int32_t p) const {
-  const Vector3& x = state_.state.position[p];
-  return implicit_.moves(p) ? Vector3(x + implicit_.translation(p)) : x;
-}
+Vector3 Overdamped::moved(std::int32_t p) const { return state_.state.position[p] + implicit_.translation(p); }
 
 // Open pairs that overlap by more than the precision at the end of the step, each with the fraction of the step at
 // which it touches, by the secant.
@@ -131,12 +128,8 @@ void Overdamped::find_touches() {
 
 // Bonds them for what is left of the step after their touch: their springs start with what they must not remember.
 void Overdamped::bond_touches() {
-  const auto motion = [&](std::int32_t p) {
-    return implicit_.moves(p) ? Motion{implicit_.translation(p), implicit_.rotation(p)}
-                              : Motion{Vector3::Zero(), Vector3::Zero()};
-  };
   for (const auto& [pair, fraction] : touches_) {
-    const Motion i = motion(pair.i), j = motion(pair.j);
+    const Motion i = motion_of(pair.i), j = motion_of(pair.j);
     Contact& made = bond(pair);
     const double l_i = lever_arm(made, state_.particles.radius[pair.i], state_.particles.radius[pair.j]);
     const double l_j = lever_arm(made, state_.particles.radius[pair.j], state_.particles.radius[pair.i]);
@@ -201,8 +194,7 @@ void Overdamped::accept(double dt) {
   provisional_.clear();
   ++statistics_.steps;
   statistics_.particle_steps += static_cast<std::int64_t>(active.size());
-  const auto motion_of = [&](std::int32_t p) { return Motion{implicit_.translation(p), implicit_.rotation(p)}; };
-  if (advance_bonds(motion_of)) network_changed_ = true;
+  if (advance_bonds([&](std::int32_t p) { return motion_of(p); })) network_changed_ = true;
   front_.follow(state_);
 }
 

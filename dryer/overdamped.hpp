@@ -35,6 +35,9 @@ class Overdamped : public Integrator {
   void predict(double dt);
   double displacement();
   Vector3 moved(std::int32_t particle) const;
+  Motion motion_of(std::int32_t particle) const {
+    return {implicit_.translation(particle), implicit_.rotation(particle)};
+  }
   void find_touches();
   void bond_touches();
   void take_back_bonds();
