@@ -53,7 +53,7 @@ Brownian::Brownian(const DryingModel& model, Agglomerate& state, std::uint64_t s
 }
 
 bool Brownian::is_dry(std::int32_t p) const {
-  return state_.state.position[p].norm() > R_ + state_.particles.radius[p];
+  return crumble::is_dry(state_.particles.radius[p], state_.state.position[p].norm(), R_);
 }
 
 void Brownian::step(double latest_time) {

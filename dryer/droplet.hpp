@@ -38,6 +38,9 @@ inline double wetting_factor(double contact_angle) {
   return c * c;
 }
 
+// Whether the liquid has left the particle behind.
+inline bool is_dry(double a, double r, double R) { return r > R + a; }
+
 // Whether the surface cuts the particle; a droplet that is inside the particle (r + R <= a) does not.
 inline bool surface_cuts(double a, double r, double R) { return r < R + a && r > R - a && r + R > a; }
 

@@ -57,7 +57,7 @@ bool DryingRun::outgrows_stage() const {
   if (static_cast<double>(state_.state.contacts.size()) > stages_[stage_].most_bonds * static_cast<double>(number))
     return true;
   for (std::size_t p = 0; p < number; ++p)
-    if (state_.state.position[p].norm() > R + state_.particles.radius[p]) return true;
+    if (is_dry(state_.particles.radius[p], state_.state.position[p].norm(), R)) return true;
   return false;
 }
 
