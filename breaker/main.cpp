@@ -129,7 +129,7 @@ int break_up(int argc, const char* const* argv) {
   write_rest(writer, run, scene, start);
   writer.finish(run.breakup().severed ? "broken" : "relaxed");
   checkpoint.remove();
-  report.add(checkpoint.used());
+  report.add_earlier(checkpoint.used());
   fill_report(report, scene, start, run, p.companion);
   if (!line.report.empty()) report.write(line.report);
   fmt::print("{}", result_text(run, scene, p.companion));

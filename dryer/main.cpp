@@ -128,7 +128,7 @@ int dry(int argc, const char* const* argv) {
   write_morphology(writer, result);
   writer.finish("dry");
   checkpoint.remove();
-  report.add(checkpoint.used());
+  report.add_earlier(checkpoint.used());
   fill_report(report, scene, run, result, companion);
   if (!line.report.empty()) report.write(line.report);
   fmt::print("{}", result_text(result, companion));

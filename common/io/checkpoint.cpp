@@ -87,12 +87,12 @@ OutputCheckpoint::OutputCheckpoint(const std::string& output, CheckpointOwner ow
       found_(std::filesystem::exists(path_) && std::filesystem::exists(output + ".tmp")) {
   if (!found_) return;
   stored_ = load_checkpoint(path_, owner_);
-  used_ = {stored_.real("used").at(0), stored_.real("used").at(1)};
+  meter_.add_earlier({stored_.real("used").at(0), stored_.real("used").at(1)});
 }
 
 void OutputCheckpoint::store(Checkpoint checkpoint) const {
-  const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-  checkpoint.reals["used"] = {used_.wall_s + wall, used_.cpu_s + process_cpu_seconds()};
+  const Cost used = meter_.used();
+  checkpoint.reals["used"] = {used.wall_s, used.cpu_s};
   save_checkpoint(path_, owner_, checkpoint);
 }
 

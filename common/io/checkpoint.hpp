@@ -1,7 +1,6 @@
 // The exact state of an interrupted run, private to the program that wrote it.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -46,7 +45,7 @@ class OutputCheckpoint {
   void require() const;
   void remove() const;
   // What the processes used that made the checkpoint; zero without one.
-  const Cost& used() const { return used_; }
+  const Cost& used() const { return meter_.earlier(); }
 
  protected:
   void store(Checkpoint checkpoint) const;
@@ -57,8 +56,7 @@ class OutputCheckpoint {
   CheckpointOwner owner_;
   bool found_;
   Checkpoint stored_;
-  Cost used_;
-  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  CostMeter meter_;
 };
 
 }  // namespace crumble

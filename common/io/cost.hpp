@@ -3,20 +3,34 @@
 
 #include <sys/resource.h>
 
+#include <chrono>
+
 namespace crumble {
 
 struct Cost {
   double wall_s = 0, cpu_s = 0;
 };
 
-// User and system time of this process so far, s.
-inline double process_cpu_seconds() {
-  const auto seconds = [](const timeval& t) {
+// Wall time counts from its construction on, CPU time (user and system) is the whole process's; what earlier processes
+// used is added.
+class CostMeter {
+ public:
+  void add_earlier(const Cost& cost) { earlier_ = cost; }
+  const Cost& earlier() const { return earlier_; }
+  Cost used() const {
+    rusage now{};
+    getrusage(RUSAGE_SELF, &now);
+    const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+    return {earlier_.wall_s + wall, earlier_.cpu_s + seconds(now.ru_utime) + seconds(now.ru_stime)};
+  }
+
+ private:
+  static double seconds(const timeval& t) {
     return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  rusage used{};
-  getrusage(RUSAGE_SELF, &used);
-  return seconds(used.ru_utime) + seconds(used.ru_stime);
-}
+  }
+
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  Cost earlier_;
+};
 
 }  // namespace crumble

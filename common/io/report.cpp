@@ -26,11 +26,7 @@ nlohmann::ordered_json& place(nlohmann::ordered_json& results, const std::string
 }  // namespace
 
 Report::Report(std::string program, std::string version, std::string scene, std::optional<std::int64_t> seed)
-    : program_(std::move(program)),
-      version_(std::move(version)),
-      scene_(std::move(scene)),
-      seed_(seed),
-      begin_(std::chrono::steady_clock::now()) {}
+    : program_(std::move(program)), version_(std::move(version)), scene_(std::move(scene)), seed_(seed) {}
 
 void Report::result(const std::string& name, Value value) {
   if (const auto* x = std::get_if<double>(&value)) require_finite(name, *x);
@@ -55,8 +51,9 @@ std::string Report::json() const {
     out["seed"] = *seed_;
   else
     out["seed"] = nullptr;
-  out["wall_s"] = earlier_.wall_s + std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-  out["cpu_s"] = earlier_.cpu_s + process_cpu_seconds();
+  const Cost cost = meter_.used();
+  out["wall_s"] = cost.wall_s;
+  out["cpu_s"] = cost.cpu_s;
   out["peak_rss_bytes"] = std::int64_t{used.ru_maxrss} * 1024;  // Linux counts in KiB
   out["steps"] = steps;
   out["results"] = nlohmann::ordered_json::object();

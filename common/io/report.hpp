@@ -1,7 +1,6 @@
 // What a run has found, with its error and its cost, as JSON for tables and tests. One shape for every program.
 #pragma once
 
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -24,7 +23,7 @@ class Report {
 
   Report(std::string program, std::string version, std::string scene, std::optional<std::int64_t> seed);
 
-  void add(const Cost& earlier) { earlier_ = earlier; }
+  void add_earlier(const Cost& cost) { meter_.add_earlier(cost); }
 
   std::int64_t steps = 0;
   std::vector<std::string> left_out;  // what the scene made unnecessary, and why that is allowed
@@ -48,8 +47,7 @@ class Report {
   };
   std::string program_, version_, scene_;
   std::optional<std::int64_t> seed_;
-  std::chrono::steady_clock::time_point begin_;
-  Cost earlier_;
+  CostMeter meter_;
   std::vector<std::pair<std::string, Value>> results_;
   std::vector<Error> errors_;
 };
