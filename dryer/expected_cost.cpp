@@ -29,8 +29,11 @@ double drying_until(const DryingScene& s, double packing) {
   return std::clamp(1 - std::pow(solids / packing, 2.0 / 3), 0.0, 1.0);
 }
 
-// The bonds that end a stage of softening are there when the solids take up 0.115 and 0.26 of the droplet. From then on
-// nearly all particles take short steps and have bonds.
+// Share of the droplet that the solids take up when there are so many bonds a particle: 0.115 at 0.3, 0.26 at one,
+// measured.
+double packing_with(double bonds) { return 0.115 + (bonds - 0.3) * (0.26 - 0.115) / (1 - 0.3); }
+
+// With one bond a particle nearly all take short steps from then on.
 ExpectedCost brownian_cost(const DryingScene& s) {
   const double a = s.smallest_radius(), N = static_cast<double>(s.radius.size());
   const auto stages = softening_stages(s);
@@ -38,11 +41,11 @@ ExpectedCost brownian_cost(const DryingScene& s) {
   double begin = 0;
   for (std::size_t k = 0; k < stages.size(); ++k) {
     const bool last = k + 1 == stages.size();
-    const double end = last ? 1 : drying_until(s, stages[k].softening == 4 ? 0.115 : 0.26);
+    const double end = last ? 1 : drying_until(s, packing_with(stages[k].most_bonds));
     const double step = Brownian::short_step(softened_model(s, stages[k].softening), a, s.brownian.contact_step);
     const double short_steps = std::max(end - begin, 0.0) * s.model.droplet.lifetime / step;
     cost.steps += std::ldexp(short_steps, -stages[k].depth);
-    const double packed = std::clamp((end - drying_until(s, 0.26)) / std::max(end - begin, 1e-9), 0.0, 1.0);
+    const double packed = std::clamp((end - drying_until(s, packing_with(1))) / std::max(end - begin, 1e-9), 0.0, 1.0);
     cost.seconds += (1e-8 + 9e-8 * packed) * N * short_steps;
     begin = end;
   }
@@ -61,7 +64,7 @@ ExpectedCost expected_cost(const DryingScene& s) {
     return brownian_cost(s);
   }
   const double advance = s.model.droplet.initial_radius / s.smallest_radius() / s.control.largest_displacement;
-  const double steps = advance / 0.8 + 5.5 * N;
+  const double steps = advance / 0.8 + 5.5 * std::pow(N, 0.75);
   return {steps, 3e-6 * std::pow(N, 0.23) * N * steps};
 }
 
