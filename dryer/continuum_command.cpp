@@ -7,10 +7,10 @@
 #include <fstream>
 
 #include "common/io/errors.hpp"
+#include "common/io/number_list.hpp"
 #include "common/io/provenance.hpp"
 #include "common/io/report.hpp"
 #include "dryer/continuum.hpp"
-#include "dryer/number_list.hpp"
 
 namespace crumble {
 

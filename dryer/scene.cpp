@@ -7,8 +7,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "common/io/number_list.hpp"
 #include "dryer/inertial.hpp"
-#include "dryer/number_list.hpp"
 #include "dryer/process_inputs.hpp"
 
 namespace crumble {

@@ -23,12 +23,13 @@ struct DryingScene {
   double step = 0;  // inertial only, s
   OverdampedControl control;
   BrownianControl brownian;
-  double softening = 1;  // of the contacts while particles diffuse
+  double softening = 1;        // of the contacts while particles diffuse
+  std::vector<double> frames;  // fractions 1 - R/R0 at which one is due, in order, besides the start and the end
+  bool estimate_error = true;
+
   double smallest_radius() const { return radius.back(); }
   double largest_radius() const { return radius.front(); }
   bool diffuses() const { return model.thermal_energy > 0 && !inertial; }
-  std::vector<double> frames;  // fractions 1 - R/R0 at which one is due, in order, besides the start and the end
-  bool estimate_error = true;
 };
 
 // Throws InputError naming file, line and keys where values contradict each other.

@@ -1,4 +1,4 @@
-#include "dryer/number_list.hpp"
+#include "common/io/number_list.hpp"
 
 #include <fmt/core.h>
 
