@@ -74,8 +74,7 @@ void run_flows(Analysis& analysis, const StressScene& scene) {
     if (scene.uniaxial) b.uniaxial = straining(b.loaded, uniaxial_gradient(), scene.straining);
     if (scene.biaxial) b.biaxial = straining(b.loaded, biaxial_gradient(), scene.straining);
     if (scene.shear) b.shear = shear(b.loaded, scene.orbit);
-    if (scene.history)
-      b.history = follow_history(b.loaded, *scene.history, scene.history_orbits, scene.seed, scene.orbit.tolerance);
+    if (scene.history) b.history = follow_history(b.loaded, *scene.history, scene.orbit.starts, scene.orbit.tolerance);
   }
 }
 

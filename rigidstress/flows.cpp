@@ -13,6 +13,12 @@ Quaternion random_orientation(std::uint64_t seed, std::uint32_t number) {
   return Quaternion(q[0], q[1], q[2], q[3]).normalized();
 }
 
+std::vector<Quaternion> random_orientations(std::uint64_t seed, int count) {
+  std::vector<Quaternion> all;
+  for (int k = 0; k < count; ++k) all.push_back(random_orientation(seed, static_cast<std::uint32_t>(k)));
+  return all;
+}
+
 Eigen::Matrix3d planar_elongation_gradient() { return planar_elongation(1).gradient; }
 
 Eigen::Matrix3d simple_shear_gradient() {
@@ -182,15 +188,15 @@ ShearResult shear(const LoadedBody& body, const ShearChoice& choice) {
   const int samples = static_cast<int>(std::ceil(choice.strain / choice.sample));
   for (int k = 0; k <= samples; ++k) times.push_back(choice.strain * k / samples);
   const Vector3 axis = long_axis(body.response);
-  for (int k = 0; k < choice.orbits; ++k) {
-    const Quaternion start = random_orientation(choice.seed, static_cast<std::uint32_t>(k));
+  const auto count = static_cast<double>(choice.starts.size());
+  for (const Quaternion& start : choice.starts) {
     result.orbits.push_back(follow(
         body, start, times, [&](double) { return gradient; }, choice.tolerance));
     const Orbit& orbit = result.orbits.back();
-    result.mean_peak_tension += orbit.peak.tension / choice.orbits;
-    result.mean_tension += orbit.mean_max_tension / choice.orbits;
-    result.mean_tumbling_time += tumbling_time(orbit, axis) / choice.orbits;
-    if (orbit.peak.use > result.orbits[result.worst_orbit].peak.use) result.worst_orbit = static_cast<std::size_t>(k);
+    result.mean_peak_tension += orbit.peak.tension / count;
+    result.mean_tension += orbit.mean_max_tension / count;
+    result.mean_tumbling_time += tumbling_time(orbit, axis) / count;
+    if (orbit.peak.use > result.orbits[result.worst_orbit].peak.use) result.worst_orbit = result.orbits.size() - 1;
   }
   return result;
 }

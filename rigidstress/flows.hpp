@@ -15,6 +15,7 @@ namespace crumble {
 
 // Uniform over all orientations, a pure function of its arguments.
 Quaternion random_orientation(std::uint64_t seed, std::uint32_t number);
+std::vector<Quaternion> random_orientations(std::uint64_t seed, int count);
 
 // What breaks first, and how much of its pull-off force is used up.
 struct Peak {
@@ -78,10 +79,9 @@ struct ShearResult {
   std::size_t worst_orbit = 0;
 };
 struct ShearChoice {
-  int orbits = 10;
+  std::vector<Quaternion> starts = random_orientations(1, 10);
   double strain = 100, sample = 0.1;
   double tolerance = 1e-8;
-  std::uint64_t seed = 1;
 };
 ShearResult shear(const LoadedBody& body, const ShearChoice& choice);
 

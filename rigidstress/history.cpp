@@ -150,16 +150,15 @@ double GradientHistory::largest_rate() const {
   return largest;
 }
 
-HistoryResult follow_history(const LoadedBody& body, const GradientHistory& history, int orbits, std::uint64_t seed,
-                             double tolerance) {
+HistoryResult follow_history(const LoadedBody& body, const GradientHistory& history,
+                             const std::vector<Quaternion>& starts, double tolerance) {
   HistoryResult result;
-  for (int k = 0; k < orbits; ++k) {
-    const Quaternion start = random_orientation(seed, static_cast<std::uint32_t>(k));
+  for (const Quaternion& start : starts) {
     result.orbits.push_back(follow(
         body, start, history.times(), [&](double t) { return history(t); }, tolerance));
     const Orbit& orbit = result.orbits.back();
-    result.mean_peak_tension += orbit.peak.tension / orbits;
-    if (orbit.peak.use > result.orbits[result.worst_orbit].peak.use) result.worst_orbit = static_cast<std::size_t>(k);
+    result.mean_peak_tension += orbit.peak.tension / static_cast<double>(starts.size());
+    if (orbit.peak.use > result.orbits[result.worst_orbit].peak.use) result.worst_orbit = result.orbits.size() - 1;
   }
   return result;
 }

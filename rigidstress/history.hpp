@@ -33,7 +33,7 @@ struct HistoryResult {
   std::size_t worst_orbit = 0;
   double mean_peak_tension = 0;
 };
-HistoryResult follow_history(const LoadedBody& body, const GradientHistory& history, int orbits, std::uint64_t seed,
-                             double tolerance = 1e-8);
+HistoryResult follow_history(const LoadedBody& body, const GradientHistory& history,
+                             const std::vector<Quaternion>& starts, double tolerance = 1e-8);
 
 }  // namespace crumble

@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
+#include <stdexcept>
+
+#include "common/io/number_list.hpp"
 
 namespace crumble {
 
@@ -74,6 +78,11 @@ const ParameterTable& stress_parameters() {
             .at_least(1)
             .at_most(100000)
             .by_default(10),
+        P::text(
+            "orientation",
+            "Shear and history: one orbit from here instead, a quaternion \"w,x,y,z\" that turns the axes of the file "
+            "into those of the flow; 1,0,0,0 as it lies")
+            .optional(),
         P::real("strain", "", "Shear: duration in 1/gamma_dot; one turn takes 4 pi or longer")
             .above(0)
             .at_most(1e6)
@@ -94,6 +103,20 @@ Method method_named(const std::string& name) {
   if (name == "fts-lubrication") return Method::fts_lubrication;
   if (name == "fts-relative-lubrication") return Method::fts_relative_lubrication;
   return name == "multipole" ? Method::multipole : Method::automatic;
+}
+
+std::vector<Quaternion> starts(const Scene& scene, std::uint64_t seed) {
+  if (!scene.is_set("flow.orientation"))
+    return random_orientations(seed, static_cast<int>(scene.integer("flow.orbits")));
+  try {
+    const std::vector<double> q = number_list(scene.text("flow.orientation"));
+    if (q.size() != 4) throw std::invalid_argument(fmt::format("{} numbers, four are needed", q.size()));
+    const Quaternion start(q[0], q[1], q[2], q[3]);
+    if (!(start.norm() > 0) || !std::isfinite(start.norm())) throw std::invalid_argument("names no orientation");
+    return {start.normalized()};
+  } catch (const std::invalid_argument& error) {
+    throw scene.error("flow.orientation", error.what());
+  }
 }
 
 }  // namespace
@@ -124,8 +147,8 @@ StressScene stress_scene(const Scene& scene) {
   s.biaxial = scene.flag("flow.biaxial");
   s.seed = static_cast<std::uint64_t>(scene.integer("run.seed"));
   s.straining.starts = static_cast<int>(scene.integer("flow.starts"));
-  s.straining.seed = s.orbit.seed = s.seed;
-  s.orbit.orbits = s.history_orbits = static_cast<int>(scene.integer("flow.orbits"));
+  s.straining.seed = s.seed;
+  s.orbit.starts = starts(scene, s.seed);
   s.orbit.strain = scene.real("flow.strain");
   s.orbit.sample = scene.real("flow.sample");
   s.orbit.tolerance = scene.real("flow.orientation_tolerance");

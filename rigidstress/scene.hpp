@@ -24,8 +24,7 @@ struct StressScene {
   bool elongation = true, shear = true, uniaxial = false, biaxial = false;
   std::optional<GradientHistory> history;
   StrainingChoice straining;
-  ShearChoice orbit;
-  int history_orbits = 10;
+  ShearChoice orbit;  // its starts and tolerance are those of the history, too
   std::uint64_t seed = 1;
 };
 

@@ -64,7 +64,7 @@ TEST(Flows, OctahedronDoesNotTurnInStrain) {
 TEST(Flows, DoubletTumblesInJefferysTime) {
   const LoadedBody doublet = loaded(testing::chain(2), 8);
   ShearChoice choice;
-  choice.orbits = 4;
+  choice.starts = random_orientations(1, 4);
   const ShearResult r = shear(doublet, choice);
   const double ratio = 1.98165;
   EXPECT_NEAR(r.mean_tumbling_time, 2 * pi * (ratio + 1 / ratio), 2e-3);
@@ -128,7 +128,7 @@ TEST(History, SteadyShearFromAFileIsSteadyShear) {
   const GradientHistory history = GradientHistory::parse(history_text(rows), "flow.csv");
   EXPECT_NEAR(history.largest_rate(), 100, 1e-12);
   const LoadedBody doublet = loaded(testing::chain(2), 2);
-  const HistoryResult found = follow_history(doublet, history, 3, 1);
+  const HistoryResult found = follow_history(doublet, history, random_orientations(1, 3));
   std::vector<double> times;
   for (int k = 0; k <= 200; ++k) times.push_back(0.1 * k);
   for (std::uint32_t k = 0; k < 3; ++k) {

@@ -86,6 +86,20 @@ class Program(unittest.TestCase):
         self.assertAlmostEqual(report["results"]["elongation"]["n_max_worst"], 20 / 21, delta=1e-6)
         self.assertEqual(report["results"]["hydrodynamics"], "fts")
 
+    def test_orbit_from_a_chosen_orientation(self):
+        """A doublet along the vorticity spins there and bears no tension; one along the flow tumbles (Jeffery 1922)."""
+        doublet = self.agglomerate([[0, 0, 0], [200, 0, 0]])
+        along_vorticity, _, _ = self.stress(doublet, "hydrodynamics.method=fts",
+                                            "flow.orientation=0.7071067811865476, 0, -0.7071067811865476, 0")
+        along_flow, _, _ = self.stress(doublet, "hydrodynamics.method=fts", "flow.orientation=1,0,0,0")
+        self.assertLess(along_vorticity["results"]["shear"]["n_max_orbit"], 1e-9)
+        # Somewhere on its way it lies at 45 degrees to the flow, where it bears what it does in elongation of that rate.
+        self.assertAlmostEqual(along_flow["results"]["shear"]["n_max_orbit"], 20 / 21, delta=1e-3)
+        for wrong in ("1,0,0", "0,0,0,0", "1,0,nonsense,0"):
+            run = self.refused(doublet, "flow.orientation=" + wrong)
+            self.assertEqual(run.returncode, 2)
+            self.assertIn("flow.orientation", run.stderr)
+
     def test_another_flow_on_a_stress_file_factorises_nothing(self):
         square = [[0, 0, 0], [200, 0, 0], [200, 200, 0], [0, 200, 0], [100, 100, 141.4213562]]
         first, _, out = self.stress(self.agglomerate(square))
