@@ -3,25 +3,19 @@ happened to the contacts as CSV, and the critical stress beside the prediction f
 
     breakup.py BREAKUP.h5      (with BREAKUP.json and, if it is there, BREAKUP-rigid.json beside it)
 """
-import csv
 import json
 import pathlib
 import sys
 
 import h5py
 
+from table import write_csv
+
 KINDS = ["slips", "twists", "rolls", "breaks", "made", "fragment lost"]
 COLUMNS = {"flow_stress": "flow_stress_pa", "radius_of_gyration": "radius_of_gyration_nm",
            "semi_axis_largest": "semi_axis_largest_nm", "semi_axis_middle": "semi_axis_middle_nm",
            "semi_axis_smallest": "semi_axis_smallest_nm", "contacts": "contacts", "largest_fragment": "largest_fragment",
            "max_tension": "max_tension_n", "slipping": "slipping", "twisting": "twisting", "rolling": "rolling"}
-
-
-def write(path, header, rows):
-    temporary = path.with_suffix(".csv.tmp")
-    with temporary.open("w", newline="") as file:
-        csv.writer(file, lineterminator="\n").writerows([header, *rows])
-    temporary.rename(path)
 
 
 def tables(path):
@@ -31,10 +25,10 @@ def tables(path):
         particles = len(file["particles/all/radius"])
         contacts = series[list(COLUMNS).index("contacts")]
         rows = [[f"{v:.7g}" for v in (*row, 2 * c / particles)] for row, c in zip(zip(*series), contacts)]
-        write(stem.with_name(stem.name + "-course.csv"), [*COLUMNS.values(), "coordination"], rows)
+        write_csv(stem.with_name(stem.name + "-course.csv"), [*COLUMNS.values(), "coordination"], rows)
         events = zip(file["events/time"][:], file["events/stress"][:], file["events/kind"][:], file["events/pair"][:])
-        write(stem.with_name(stem.name + "-events.csv"), ["time_s", "flow_stress_pa", "what", "i", "j"],
-              [[f"{t:.9g}", f"{s:.7g}", KINDS[kind], i, j] for t, s, kind, (i, j) in events])
+        write_csv(stem.with_name(stem.name + "-events.csv"), ["time_s", "flow_stress_pa", "what", "i", "j"],
+                  [[f"{t:.9g}", f"{s:.7g}", KINDS[kind], i, j] for t, s, kind, (i, j) in events])
     return stem
 
 

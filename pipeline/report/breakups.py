@@ -1,14 +1,22 @@
-"""Breakups of several granules beside the rigid prediction for each: breakups.py NAME=BREAKUP.json,... [NAME=...]
+"""Breakups of several granules beside the rigid prediction for each: breakups.py KIND-SEED.json...
 
-Beside every BREAKUP.json lies BREAKUP-rigid.json of rigidstress. Prints a table in Markdown; changes are those at 1 % less
-than the critical stress.
+Beside every report of breaker lies KIND-SEED-rigid.json of rigidstress. Prints a table in Markdown, which the page of the paper
+shows, too; changes are those at 1 % less than the critical stress.
 """
 import json
 import pathlib
 import statistics
 import sys
 
-PAPER = {"compact": (4040, 4120), "hollow": (2010, 1930)}  # section 3.3: flexible and rigid, Pa, one granule each
+import published
+from table import print_markdown
+
+HEADING = ["granule", "breaks at", "the paper", "rigid", "the paper", "ratio", "first contact breaks", "contacts",
+           "radius of gyration", "largest, smallest semi-axis", "", "fragments", "CPU s"]
+
+
+def kind(path):
+    return path.stem.rpartition("-")[0]
 
 
 def load(path):
@@ -17,35 +25,32 @@ def load(path):
     return found, rigid["results"]["elongation"]["critical_stress_settled_pa"]
 
 
-def row(name, found, rigid):
+def row(path, found, rigid):
     r, error = found["results"], found["errors"]["critical_stress_relative"]["value"]
     uncertain = "" if error is None else f" +- {100 * error:.1g} %"
-    return (f"| {name} | {r['critical_stress_pa']:.0f} Pa{uncertain} | {rigid:.0f} Pa | "
-            f"{r['critical_stress_pa'] / rigid:.2f} | {r['first_rupture_stress_pa']:.0f} Pa | "
-            f"{r['contacts_initial']} -> {r['contacts_at_breakup']} | {100 * r['rg_change_relative']:+.1f} % | "
-            f"{100 * r['largest_semi_axis_change_relative']:+.1f} %, {100 * r['smallest_semi_axis_change_relative']:+.1f} % | "
-            f"{r['breakage']} | {' '.join(map(str, r['fragments'][:4]))} | {found['cpu_s']:.0f} |")
+    theirs = [f"{stress} Pa" for stress in published.BREAKUPS.get(kind(path), ())] or ["", ""]
+    return [path.stem, f"{r['critical_stress_pa']:.0f} Pa{uncertain}", theirs[0], f"{rigid:.0f} Pa", theirs[1],
+            f"{r['critical_stress_pa'] / rigid:.2f}", f"{r['first_rupture_stress_pa']:.0f} Pa",
+            f"{r['contacts_initial']} -> {r['contacts_at_breakup']}", f"{100 * r['rg_change_relative']:+.1f} %",
+            f"{100 * r['largest_semi_axis_change_relative']:+.1f} %, {100 * r['smallest_semi_axis_change_relative']:+.1f} %",
+            r["breakage"], " ".join(map(str, r["fragments"][:4])), f"{found['cpu_s']:.0f}"]
 
 
-def main(classes):
-    print("| granule | breaks at | rigid | ratio | first contact breaks | contacts | radius of gyration | "
-          "largest, smallest semi-axis | | fragments | CPU s |")
-    print("|---|---|---|---|---|---|---|---|---|---|---|")
-    means = {}
-    for entry in classes:
-        name, _, files = entry.partition("=")
-        loaded = [(pathlib.Path(file).stem, *load(pathlib.Path(file))) for file in files.split(",")]
-        for granule, found, rigid in loaded:
-            print(row(granule, found, rigid))
-        means[name] = [statistics.fmean(values) for values in
-                       zip(*((found["results"]["critical_stress_pa"], rigid) for _, found, rigid in loaded))]
+def main(paths):
+    loaded = [(path, *load(path)) for path in paths]
+    print_markdown(HEADING, [row(*one) for one in loaded])
+    means = {name: [statistics.fmean(values) for values in zip(*((found["results"]["critical_stress_pa"], rigid)
+                                                                 for path, found, rigid in loaded if kind(path) == name))]
+             for name in dict.fromkeys(kind(path) for path in paths)}
     print()
     for name, (flexible, rigid) in means.items():
-        paper = f"; the paper {PAPER[name][0]} and {PAPER[name][1]} Pa" if name in PAPER else ""
-        print(f"{name}: mean {flexible:.0f} Pa, rigid {rigid:.0f} Pa{paper}")
+        print(f"{name}: mean {flexible:.0f} Pa, rigid {rigid:.0f} Pa")
     if {"compact", "hollow"} <= means.keys():
-        print(f"compact over hollow: {means['compact'][0] / means['hollow'][0]:.2f}; the paper 2.01")
+        theirs = published.BREAKUPS["compact"][0] / published.BREAKUPS["hollow"][0]
+        print(f"compact over hollow: {means['compact'][0] / means['hollow'][0]:.2f}; the paper {theirs:.2f}")
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    if len(sys.argv) < 2:
+        sys.exit(__doc__)
+    main([pathlib.Path(name) for name in sys.argv[1:]])

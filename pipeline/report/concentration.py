@@ -21,7 +21,9 @@ import tempfile
 import h5py
 import numpy
 
+import scene
 from figure import LINES, pyplot, save
+from table import print_markdown, write_csv
 
 THETA = (0.0, 0.2, 0.4)
 NEIGHBOURS = 20
@@ -40,12 +42,19 @@ def accessible(radius, droplet, tension, temperature):
     return droplet - radius + numpy.trapz(numpy.exp(-energy / (BOLTZMANN * temperature)), x)
 
 
+def liquid(of):
+    """Of a scene: what the tension of the surface is worth on a sphere (Eq. 8 with the factor of the contact angle), N/m, and kelvins."""
+    angle = math.radians(scene.number(of, "liquid", "contact_angle"))
+    return scene.number(of, "liquid", "surface_tension") * math.cos(angle / 2) ** 2, scene.number(of, "liquid", "temperature")
+
+
 def read(names):
-    """{theta: (radius of the droplet, centres' distances of each granule)}, and the radius of the particles, in metres."""
-    found = {}
+    """{theta: (radius of the droplet, centres' distances of each granule)}, in metres; radius of the particles; what liquid() gives."""
+    found, kinds = {}, set()
     for name in names:
         with h5py.File(name) as file:
             a = 1e-9 * file["particles/all/radius"][0]
+            kinds.add((a, *liquid(scene.resolved(file))))
             R = 1e-9 * file["observables/droplet_radius/value"][:]
             theta = 1 - (R / R[0]) ** 2
             for wanted in THETA:
@@ -54,7 +63,9 @@ def read(names):
                     sys.exit(f"{name}: no frame at theta = {wanted}; set output.theta = \"0.2, 0.4\" in its scene")
                 r = 1e-9 * numpy.linalg.norm(file["particles/all/position/value"][frame], axis=1)
                 found.setdefault(wanted, (R[frame], []))[1].append(numpy.sort(r))
-    return found, a
+    if len(kinds) > 1:
+        sys.exit(f"{names[0]} and others: particles or liquids differ")
+    return found, *kinds.pop()
 
 
 def continuum(dryer, peclet, theta):
@@ -105,13 +116,13 @@ def compare(x, rho, gamma, theta):
 
 
 def comparisons(dryer, peclet, names):
-    granules, a = read(names)
+    granules, a, tension, temperature = read(names)
     R0 = granules[0.0][0]
     reached0 = R0 - a  # the start is fully immersed
     for theta, (R, radii) in granules.items():
         x = numpy.array(radii)
         yield theta, "raw", compare(x / R, *continuum(dryer, peclet, theta), theta)
-        reached = accessible(a, R, 1.75e-4, 300) if theta > 0 else reached0
+        reached = accessible(a, R, tension, temperature) if theta > 0 else reached0
         # A wall at R - d moves like one of a droplet with Pe (1 - d/R); d/R is taken half-way.
         slower = 1 - (R0 - reached0) / R0 / 2 - (R - reached) / R / 2
         inner = 1 - (reached / reached0) ** 2
@@ -155,19 +166,14 @@ def main(dryer, folder, populations):
         peclet, _, names = population.partition("=")
         found[float(peclet)] = {(theta, kind): rows
                                 for theta, kind, rows in comparisons(dryer, float(peclet), names.split(","))}
-    with (folder / "figure5.csv").open("w", newline="") as file:
-        writer = csv.writer(file)
-        writer.writerow(["peclet", "theta", "radius", "estimator", "place", "gamma", "standard_error", "continuum"])
-        for peclet, sets in found.items():
-            for (theta, kind), rows in sets.items():
-                writer.writerows([peclet, theta, kind, name, *(f"{v:.5g}" for v in rest)] for name, *rest in rows)
+    write_csv(folder / "figure5.csv", ["peclet", "theta", "radius", "estimator", "place", "gamma", "standard_error", "continuum"],
+              ([peclet, theta, kind, name, *(f"{v:.5g}" for v in rest)] for peclet, sets in found.items()
+               for (theta, kind), rows in sets.items() for name, *rest in rows))
     draw(found, folder / "figure5.svg")
-    print("| Pe | theta | radius | 41 neighbours: rms difference | in standard errors | ten shells | in standard errors |")
-    print("|---|---|---|---|---|---|---|")
-    for peclet, sets in found.items():
-        for (theta, kind), rows in sets.items():
-            one, two = deviation(rows, "neighbours"), deviation(rows, "shells")
-            print(f"| {peclet:g} | {theta:g} | {kind} | {100 * one[0]:.1f} % | {one[1]:.1f} | {100 * two[0]:.1f} % | {two[1]:.1f} |")
+    cells = lambda relative, errors: [f"{100 * relative:.1f} %", f"{errors:.1f}"]
+    print_markdown(["Pe", "theta", "radius", "41 neighbours: rms difference", "in standard errors", "ten shells", "in standard errors"],
+                   [[f"{peclet:g}", f"{theta:g}", kind, *cells(*deviation(rows, "neighbours")), *cells(*deviation(rows, "shells"))]
+                    for peclet, sets in found.items() for (theta, kind), rows in sets.items()])
     print("\nDifference of the particles to the continuum. Neighbouring values of the 41-particle estimator share particles.")
 
 

@@ -11,9 +11,9 @@ import sys
 import h5py
 import numpy
 
+import published
 from figure import LINES, pyplot, save
-
-TITLES = {"hollow": "Pe → ∞", "intermediate": "Pe = 10", "compact": "Pe = 1"}
+from table import write_csv
 
 
 def radii(name):
@@ -36,10 +36,9 @@ def main(folder, populations):
     for (colour, dashes), population in zip(LINES, populations):
         name, _, files = population.partition("=")
         grid, mean, lowest, highest = distribution(files.split(","))
-        with (folder / f"figure3-{name}.csv").open("w") as out:
-            out.write("radius_nm,mean,lowest,highest\n")
-            out.writelines(f"{x:g},{m:.4f},{a:.4f},{b:.4f}\n" for x, m, a, b in zip(grid, mean, lowest, highest))
-        axes.plot(grid, mean, color=colour, linestyle=dashes, label=TITLES.get(name, name))
+        write_csv(folder / f"figure3-{name}.csv", ["radius_nm", "mean", "lowest", "highest"],
+                  ([f"{x:g}", f"{m:.4f}", f"{a:.4f}", f"{b:.4f}"] for x, m, a, b in zip(grid, mean, lowest, highest)))
+        axes.plot(grid, mean, color=colour, linestyle=dashes, label=published.GRANULES[name]["title"])
         axes.fill_between(grid, lowest, highest, color=colour, alpha=0.2, linewidth=0)
     axes.set(xlabel="distance from the centre of mass, nm", ylabel="fraction of particles within", xlim=(0, None), ylim=(0, 1.02))
     axes.legend(frameon=False)

@@ -9,16 +9,8 @@ import statistics
 import sys
 import textwrap
 
+import published
 from interval import half_width
-
-# What the paper gives, one realisation each. Contacts and coordination of the hollow one: 185 in the first description,
-# 183 in the evolution (3.18 = 2 * 183 / 115); of the compact one: coordination before loading (section 3.3).
-PAPER = {
-    "hollow": {"title": "Pe -> infinity, N = 115", "d_c_nm": 160, "h_c_over_d_c": 0.28, "contacts": 184,
-               "coordination": 3.18},
-    "intermediate": {"title": "Pe = 10, N = 102", "d_c_nm": 132, "h_c_over_d_c": 0.43},
-    "compact": {"title": "Pe = 1, N = 85", "d_c_nm": 132, "h_c_over_d_c": 0.44, "contacts": 177, "coordination": 4.16},
-}
 
 # Differences of means to contacts of full stiffness, found by `make verify` and kept.
 STORED = pathlib.Path(__file__).parent.parent / "verify" / "brownian.json"
@@ -59,13 +51,13 @@ def one_run(value, column):
 
 
 def paper_cell(row, column):
-    value = PAPER[row].get(column[0])
+    value = published.GRANULES[row].get(column[0])
     return "-" if value is None else column[2].format(value)
 
 
 def place_cell(row, reports, column):
     """Where the paper's one value lies among ours, in standard deviations from the mean."""
-    value = PAPER[row].get(column[0])
+    value = published.GRANULES[row].get(column[0])
     values = [r["results"][column[0]] for r in reports]
     if value is None or len(values) < 3 or statistics.stdev(values) == 0:
         return "-"
@@ -133,7 +125,7 @@ def groups(arguments):
     while arguments:
         end = arguments.index("--") if "--" in arguments else len(arguments)
         row, names, arguments = arguments[0], arguments[1:end], arguments[end + 1:]
-        if row not in PAPER or not names:
+        if row not in published.GRANULES or not names:
             sys.exit(__doc__)
         out.append((row, [read(name) for name in names]))
     return out
@@ -145,7 +137,7 @@ def main(arguments):
     for row, reports in groups(arguments):
         granules = "granule" if len(reports) == 1 else "granules"
         program = f"{reports[0]['program']} {reports[0]['version']}"
-        print(f"{len(reports)} {row} {granules} ({PAPER[row]['title']}), {program}, {reports[0]['scene']}\n")
+        print(f"{len(reports)} {row} {granules} ({published.GRANULES[row]['title']}), {program}, {reports[0]['scene']}\n")
         print("\n".join(table(row, reports) + [""] + notes(row, reports)) + "\n")
     print("mean: over the seeds (cpu s: the sum). spread: standard deviation between seeds. +-95%: of the mean.\n"
           "error: numerical error, the largest of the seeds (?: not estimated).\n"

@@ -5,7 +5,6 @@
 Each report is one of dryer; those of the inertial integrator have "inertial" in their name. Prints the table.
 """
 
-import csv
 import json
 import pathlib
 import statistics
@@ -13,6 +12,7 @@ import sys
 
 from figure import BLUE, ORANGE, pyplot, save
 from interval import half_width
+from table import print_markdown, write_records
 
 QUANTITIES = [("d_c_um", "d_c, um", "{:.2f}"), ("h_c_um", "h_c, um", "{:.2f}"), ("h_c_over_d_c", "h_c/d_c", "{:.3f}"),
               ("contacts", "contacts", "{:.1f}"), ("fragments", "fragments", "{:.1f}")]
@@ -44,12 +44,10 @@ def rows(runs):
 
 
 def show(table):
-    print("| lifetime ms | integrator | granules | " + " | ".join(label for _, label, _ in QUANTITIES) + " | front | CPU s |")
-    print("|---" * (5 + len(QUANTITIES)) + "|")
-    for row in table:
-        cells = [form.format(row[name]) + " +- " + form.format(row[name + "_spread"]) for name, _, form in QUANTITIES]
-        print(f"| {row['lifetime_ms']:g} | {row['integrator']} | {row['granules']} | " + " | ".join(cells) +
-              f" | {row['front_over_limit']:.2f} | {row['cpu_s']:.1f} |")
+    print_markdown(["lifetime ms", "integrator", "granules", *(label for _, label, _ in QUANTITIES), "front", "CPU s"],
+                   [[f"{row['lifetime_ms']:g}", row["integrator"], str(row["granules"]),
+                     *(form.format(row[name]) + " +- " + form.format(row[name + "_spread"]) for name, _, form in QUANTITIES),
+                     f"{row['front_over_limit']:.2f}", f"{row['cpu_s']:.1f}"] for row in table])
     print("\n+-: standard deviation between granules. front: speed of the receding surface where its radius is d_c/2, over the\n"
           "speed sigma/(3 mu) at which the capillary force can move a particle.")
 
@@ -71,10 +69,7 @@ def draw(table, out):
 def main(folder, names):
     table = list(rows([read(name) for name in names]))
     folder = pathlib.Path(folder)
-    with (folder / "figure4.csv").open("w", newline="") as file:
-        writer = csv.DictWriter(file, table[0].keys())
-        writer.writeheader()
-        writer.writerows(table)
+    write_records(folder / "figure4.csv", table)
     draw(table, folder / "figure4.svg")
     show(table)
 

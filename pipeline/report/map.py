@@ -5,7 +5,6 @@
 Prints the table and, for a few stresses, which Peclet number gives them.
 """
 
-import csv
 import json
 import math
 import pathlib
@@ -13,6 +12,7 @@ import statistics
 import sys
 
 from figure import BLACK, BLUE, GREEN, ORANGE, PURPLE, pyplot, save
+from table import print_markdown, write_records
 
 QUANTITIES = [("d_c_nm", "d_c, nm"), ("h_c_over_d_c", "h_c/d_c"), ("porosity", "porosity"), ("coordination", "coordination"),
               ("critical_stress_pa", "critical stress, Pa")]
@@ -52,13 +52,12 @@ def usual(table):
 
 
 def show(table):
-    print("| Pe | N | solids % | granules | " + " | ".join(label for _, label in QUANTITIES) + " | fragments | CPU s |")
-    print("|---" * (6 + len(QUANTITIES)) + "|")
-    for row in table:
-        cells = ["dust" if math.isnan(row[name]) else f"{row[name]:.3g} ({row[name + '_lowest']:.3g} to {row[name + '_highest']:.3g})"
-                 for name, _ in QUANTITIES]
-        print(f"| {row['peclet']:g} | {row['number']} | {100 * row['solids']:.2g} | {row['granules']} | " + " | ".join(cells) +
-              f" | {row['fragments']:.1f} | {row['cpu_s']:.3g} |")
+    cell = lambda row, name: ("dust" if math.isnan(row[name]) else
+                              f"{row[name]:.3g} ({row[name + '_lowest']:.3g} to {row[name + '_highest']:.3g})")
+    print_markdown(["Pe", "N", "solids %", "granules", *(label for _, label in QUANTITIES), "fragments", "CPU s"],
+                   [[f"{row['peclet']:g}", str(row["number"]), f"{100 * row['solids']:.2g}", str(row["granules"]),
+                     *(cell(row, name) for name, _ in QUANTITIES), f"{row['fragments']:.1f}", f"{row['cpu_s']:.3g}"]
+                    for row in table])
     print("\nMean (lowest to highest of the granules). Critical stress: rigid, planar elongation, settled, particles of 100 nm; it\n"
           "goes as surface energy over radius. The shear rate that reaches it is the stress over the viscosity of the liquid.\n")
     scan = [row for row in table if (row["number"], row["solids"]) == usual(table) and not math.isnan(row["critical_stress_pa"])]
@@ -103,10 +102,7 @@ def draw(table, out):
 def main(folder, stems):
     folder = pathlib.Path(folder)
     table = list(rows([read(folder, stem) for stem in stems]))
-    with (folder / "map.csv").open("w", newline="") as file:
-        writer = csv.DictWriter(file, table[0].keys())
-        writer.writeheader()
-        writer.writerows(table)
+    write_records(folder / "map.csv", table)
     draw(table, folder / "map.svg")
     show(table)
 

@@ -1,11 +1,10 @@
 """Strength of populations, section 3.4 of Vasquez Giuliano et al. (2022): strength.py FOLDER NAME=REPORT.json,...
 
 Each NAME is a population, its reports are those of rigidstress; beside every report lies its stress file. Prints the
-table and writes FOLDER/table.csv, FOLDER/fig8.csv (tension of every contact against its distance from the centre of
+table and writes FOLDER/table.csv (which the page of the paper shows, too), FOLDER/fig8.csv (tension of every contact against its distance from the centre of
 mass, settled in elongation) and FOLDER/fig9.csv (N_max of the most loaded orbit against time, in shear).
 """
 
-import csv
 import json
 import math
 import pathlib
@@ -14,9 +13,9 @@ import sys
 
 import h5py
 
-# N_max/(6 pi mu gamma_dot a^2) and critical stress in Pa that the paper gives: settled in elongation, largest in shear.
-PAPER = {"compact": {"settled": (2.89, 4120), "shear": (3.3, 3650)},
-         "hollow": {"settled": (6.24, 1930), "shear": (5.1, 2360)}}
+import published
+from interval import half_width
+from table import write_csv, write_records
 
 # name, where in the results N_max is, where its critical stress is
 CASES = [("settled", ("elongation", "n_max_settled"), ("elongation", "critical_stress_settled_pa")),
@@ -24,20 +23,26 @@ CASES = [("settled", ("elongation", "n_max_settled"), ("elongation", "critical_s
          ("shear", ("shear", "n_max_orbit"), ("shear", "critical_stress_pa"))]
 
 
-def spread(values):
-    return statistics.stdev(values) if len(values) > 1 else math.nan
+def several(of, values):
+    """Of more than one value."""
+    return of(values) if len(values) > 1 else math.nan
 
 
-def rows(name, results, errors):
+def rows(name, reports):
+    results = [report["results"] for report in reports]
+    error = max(report["errors"]["n_max_relative"]["value"] for report in reports)
+    cpu = statistics.fmean(report["cpu_s"] for report in reports)
     coordination = statistics.fmean(r["coordination"] for r in results)
     for case, n_max, stress in CASES:
         n = [r[n_max[0]][n_max[1]] for r in results]
         critical = [r[stress[0]][stress[1]] for r in results]
-        paper = PAPER.get(name, {}).get(case, ("", ""))
+        paper = published.STRENGTH.get(name, {}).get(case, ("", ""))
         yield {"population": name, "agglomerates": len(results), "coordination": f"{coordination:.2f}", "flow": case,
-               "n_max": f"{statistics.fmean(n):.2f}", "spread": f"{spread(n):.2f}",
-               "error_percent": f"{100 * max(errors):.1f}", "critical_stress_pa": f"{statistics.fmean(critical):.0f}",
-               "spread_pa": f"{spread(critical):.0f}", "paper_n_max": paper[0], "paper_pa": paper[1]}
+               "n_max": f"{statistics.fmean(n):.2f}", "spread": f"{several(statistics.stdev, n):.2f}",
+               "half_width": f"{several(half_width, n):.2f}", "error_percent": f"{100 * error:.1f}",
+               "critical_stress_pa": f"{statistics.fmean(critical):.0f}", "spread_pa": f"{several(statistics.stdev, critical):.0f}",
+               "half_width_pa": f"{several(half_width, critical):.0f}", "paper_n_max": paper[0], "paper_pa": paper[1],
+               "cpu_s": f"{cpu:.3g}"}
 
 
 def unit(result):
@@ -45,36 +50,35 @@ def unit(result):
     return 6 * math.pi * (1e-9 * result["particle_radius_nm"]) ** 2
 
 
+def courses(name, path, result):
+    """Rows of fig8.csv and fig9.csv of one agglomerate."""
+    with h5py.File(path.with_suffix(".h5")) as stress:
+        settled, shear = stress["flows/elongation"], stress["flows/shear"]
+        contacts = zip(settled["radial_position"][:], settled["normal_force"][:] / unit(result))
+        instants = zip(shear["time"][:], shear["max_tension"][:] / unit(result))
+    return ([[name, path.stem, f"{r:.2f}", f"{n:.5g}"] for r, n in contacts],
+            [[name, path.stem, f"{t:.5g}", f"{n:.5g}"] for t, n in instants])
+
+
 def main(folder, populations):
     folder = pathlib.Path(folder)
-    table = []
-    with open(folder / "fig8.csv", "w", newline="") as fig8, open(folder / "fig9.csv", "w", newline="") as fig9:
-        contact, instant = csv.writer(fig8), csv.writer(fig9)
-        contact.writerow(["population", "agglomerate", "radial_position_nm", "n_over_6_pi_mu_gamma_dot_a2"])
-        instant.writerow(["population", "agglomerate", "time_gamma_dot", "n_max_over_6_pi_mu_gamma_dot_a2"])
-        for population in populations:
-            name, _, files = population.partition("=")
-            results, errors = [], []
-            for path in (pathlib.Path(file) for file in files.split(",")):
-                report = json.loads(path.read_text())
-                result = report["results"]
-                results.append(result)
-                errors.append(report["errors"]["n_max_relative"]["value"])
-                with h5py.File(path.with_suffix(".h5")) as stress:
-                    settled, shear = stress["flows/elongation"], stress["flows/shear"]
-                    for r, n in zip(settled["radial_position"][:], settled["normal_force"][:] / unit(result)):
-                        contact.writerow([name, path.stem, f"{r:.2f}", f"{n:.5g}"])
-                    for t, n in zip(shear["time"][:], shear["max_tension"][:] / unit(result)):
-                        instant.writerow([name, path.stem, f"{t:.5g}", f"{n:.5g}"])
-            table += rows(name, results, errors)
-    with open(folder / "table.csv", "w", newline="") as out:
-        writer = csv.DictWriter(out, table[0].keys())
-        writer.writeheader()
-        writer.writerows(table)
+    table, contacts, instants = [], [], []
+    for population in populations:
+        name, _, files = population.partition("=")
+        paths = [pathlib.Path(file) for file in files.split(",")]
+        reports = [json.loads(path.read_text()) for path in paths]
+        table += rows(name, reports)
+        for path, report in zip(paths, reports):
+            of_contacts, of_instants = courses(name, path, report["results"])
+            contacts += of_contacts
+            instants += of_instants
+    write_csv(folder / "fig8.csv", ["population", "agglomerate", "radial_position_nm", "n_over_6_pi_mu_gamma_dot_a2"], contacts)
+    write_csv(folder / "fig9.csv", ["population", "agglomerate", "time_gamma_dot", "n_max_over_6_pi_mu_gamma_dot_a2"], instants)
+    write_records(folder / "table.csv", table)
     widths = {key: max(len(key), *(len(str(row[key])) for row in table)) for key in table[0]}
-    print("N_max in 6 pi mu gamma_dot a^2 and the flow stress that breaks the most loaded contact: mean and standard")
-    print("deviation; error: the largest that rigidstress states for one agglomerate. settled and worst orientation in")
-    print("planar elongation; shear: largest over an orbit, mean over orbits.")
+    print("N_max in 6 pi mu gamma_dot a^2 and the flow stress that breaks the most loaded contact: mean, standard")
+    print("deviation and half of the 95 % interval of the mean; error: the largest that rigidstress states for one agglomerate.")
+    print("settled and worst orientation in planar elongation; shear: largest over an orbit, mean over orbits.")
     for row in [dict(zip(widths, widths))] + table:
         print("  ".join(str(row[key]).rjust(width) for key, width in widths.items()))
 

@@ -2,7 +2,6 @@
 stresses up to 95 % of it every gap within 1e-2 of the pull-off gap. The ramp is faster than the paper's, the same for
 both, so that the explicit one takes minutes.
 """
-import csv
 import json
 import os
 import pathlib
@@ -14,8 +13,9 @@ import h5py
 import numpy
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tests" / "breaker"))
+sys.path[:0] = [str(ROOT / "tests" / "breaker"), str(ROOT / "pipeline" / "report")]
 from bench import coil  # noqa: E402
+from table import write_csv  # noqa: E402
 
 BIN = ROOT / "build" / "release" / "bin"
 SCENE = ROOT / "pipeline" / "scenes" / "breakup.toml"
@@ -75,8 +75,7 @@ def main():
                  for name, r in (("implicit, tolerance 0.001", fast), ("explicit", slow))]
     results = ROOT / "pipeline" / "results" / "verify"
     results.mkdir(parents=True, exist_ok=True)
-    with (results / "breakup_reference.csv").open("w", newline="") as file:
-        csv.writer(file, lineterminator="\n").writerows(rows)
+    write_csv(results / "breakup_reference.csv", rows[0], rows[1:])
     for row in rows:
         print(" | ".join(map(str, row)))
     print(f"ratio of critical stresses {ratio:.5f}; worst gap of a contact differs by {worst:.2g} pull-off gaps")

@@ -7,6 +7,7 @@ The paper's compact granule (Pe = 1, one realisation) has coordination 4.16 and 
 
 from drying import runs
 from interval import difference
+from table import print_markdown
 
 # name of the files: (what is chosen, settings); the longest first
 CHOICES = {
@@ -47,8 +48,8 @@ def main():
         rows.append(row + [f"{runs.mean(found, 'coordination'):.2f}", f"{runs.mean(found, 'fragments'):.1f}",
                            f"{runs.mean(found, 'cpu_s'):.1f}"])
     heading = ["choice", "seeds", "d_c nm", "h_c/d_c", "contacts", "contacts, change %", "coordination", "fragments", "CPU s"]
-    runs.print_table(heading, rows)
-    runs.write_csv("brownian_choices.csv", [__doc__.splitlines()[0], runs.machine()], heading, rows)
+    print_markdown(heading, rows)
+    runs.store("brownian_choices.csv", __doc__.splitlines()[0], heading, rows)
     of = {name: runs.mean(found, "contacts") for name, found in results.items()}
     usual = of["brownian_default"]
     runs.judge([("rolling resistance changes the contacts by less than 5 %",

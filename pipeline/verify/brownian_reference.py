@@ -12,6 +12,7 @@ import json
 
 from drying import runs
 from interval import difference
+from table import print_markdown
 
 SCENE = "pipeline/scenes/intermediate.toml"
 CASES = {"brownian_full": {"integrator.softening": 1}, "brownian_soft_1.25": {"integrator.softening": 1.25}}
@@ -43,8 +44,8 @@ def main():
     heading = ["contacts of", "seeds"]
     for _, title, *_ in QUANTITIES:
         heading += [title, "difference %"]
-    runs.print_table(heading + ["CPU s"], rows)
-    runs.write_csv("brownian_reference.csv", [__doc__.splitlines()[0], runs.machine()], heading + ["cpu_s"], rows)
+    print_markdown(heading + ["CPU s"], rows)
+    runs.store("brownian_reference.csv", __doc__.splitlines()[0], heading + ["cpu_s"], rows)
 
     default = results["brownian_default"]
     stored = {"rows": ["intermediate", "compact"],

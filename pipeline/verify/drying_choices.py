@@ -11,6 +11,7 @@ import math
 import statistics
 
 from drying import runs
+from table import print_markdown
 
 # Rolling limit of the two codes, in units of Eq. 21.
 CODES = 0.44
@@ -132,10 +133,10 @@ def main():
     runs.require_programs()
     results = runs.run_all({name: choice[1] for name, choice in CHOICES.items()}, options.seeds, options.jobs)
     print(f"\n{runs.machine()}\n")
-    runs.print_table(HEADING, [printed(results, name) for name in ORDER])
+    print_markdown(HEADING, [printed(results, name) for name in ORDER])
     print("\n+-: standard deviation between starts; of a change: standard error of the mean over the same starts. "
           "CPU s: of one run.\n")
-    runs.write_csv("drying_choices.csv", ["one choice of the dryer changed at a time", runs.machine()], CSV_HEADING,
+    runs.store("drying_choices.csv", "one choice of the dryer changed at a time", CSV_HEADING,
                    [stored(results, name) for name in ORDER])
     runs.judge(claims(results))
 

@@ -7,6 +7,7 @@ run takes minutes.
 """
 
 from drying import runs
+from table import print_markdown
 
 METHODS = ["inertial", "overdamped"]  # the long runs first
 QUANTITIES = [("d_c_nm", "d_c nm", ".2f"), ("h_c_over_d_c", "h_c/d_c", ".4f"), ("contacts", "contacts", "d")]
@@ -48,9 +49,9 @@ def main():
     for key, title, _ in QUANTITIES:
         heading += [title, "inertial", "%"]
         columns += [f"{key}_overdamped", f"{key}_inertial", f"{key}_difference_percent"]
-    runs.print_table(heading + ["CPU s", "inertial", "ratio"], table(results, lambda x, digits: f"{x:{digits}}"))
+    print_markdown(heading + ["CPU s", "inertial", "ratio"], table(results, lambda x, digits: f"{x:{digits}}"))
     print("\nFor each quantity: overdamped, inertial, difference; last the CPU seconds of both and their ratio.\n")
-    runs.write_csv("drying_reference.csv", ["overdamped against inertial, same starts", runs.machine()],
+    runs.store("drying_reference.csv", "overdamped against inertial, same starts",
                    columns + ["cpu_s_overdamped", "cpu_s_inertial", "cpu_ratio"],
                    table(results, lambda x, _: f"{x:.6g}"))
     runs.judge(claims(results))

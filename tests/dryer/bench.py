@@ -1,6 +1,6 @@
 """Time against error of the dryer: step control, stiffness and integrator on the rows of Table 2, and LAMMPS beside it.
 
-    bench.py [--rows hollow intermediate compact lammps] [--seeds 2] [--out pipeline/results/bench-dryer]
+    bench.py [--rows hollow intermediate compact lammps] [--seeds 2] [--jobs 2] [--out pipeline/results/bench-dryer]
 
 Errors against the reference of each row: hollow against the inertial integrator at full stiffness, same starts (mean of the
 absolute differences); with noise against full stiffness, differences of means with their 95 % interval. Gamma: concentration at
@@ -9,14 +9,10 @@ only chance is left). Times are CPU seconds of one core. Writes bench.csv and be
 """
 
 import argparse
-import csv
 import os
 import pathlib
 import statistics
 import sys
-
-import h5py
-import numpy
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "pipeline/verify"), str(ROOT / "pipeline/report")]
@@ -25,6 +21,7 @@ import concentration  # noqa: E402
 import interval  # noqa: E402
 from drying import lammps, runs  # noqa: E402
 from figure import LINES, pyplot, save  # noqa: E402
+from table import print_markdown, write_records  # noqa: E402
 
 SOFT = {"material.youngs_modulus": "3.4e7"}  # a hundredth, at the same surface energy
 STEP = "integrator.largest_displacement"
@@ -58,10 +55,10 @@ def errors(mine, reference, paired):
             yield 100 * difference / statistics.fmean(b), 100 * half / statistics.fmean(b)
 
 
-def bench_row(name, seeds):
+def bench_row(name, seeds, jobs):
     scene, times, peclet, (label, reference), cases = ROWS[name]
     seeds = list(range(1, seeds * times + 1))
-    found = runs.run_all({f"bench_{name}_{k}": setting for k, setting in enumerate([reference, *cases.values()])}, seeds, os.cpu_count(), scene)
+    found = runs.run_all({f"bench_{name}_{k}": setting for k, setting in enumerate([reference, *cases.values()])}, seeds, jobs, scene)
     base = found[f"bench_{name}_0"]
     for k, case in enumerate([label, *cases]):
         mine = found[f"bench_{name}_{k}"]
@@ -73,41 +70,28 @@ def bench_row(name, seeds):
                "overlap_over_a": overlap, "gamma": gamma_deviation(str(ROOT / runs.DRYER), peclet, files) if peclet else None}
 
 
-def diameter(x, radius):
-    """d_c of section 3.1 of the paper: twice the mean distance of the farthest tenth plus a radius."""
-    r = numpy.sort(numpy.linalg.norm(x - x.mean(axis=0), axis=1))
-    return 2 * (r[-max(1, len(r) // 10):].mean() + radius)
-
-
-def touching(x, radius):
-    i, j = numpy.triu_indices(len(x), 1)
-    return int((numpy.linalg.norm(x[i] - x[j], axis=1) < 2.02 * radius).sum())
-
-
-def beside_lammps(seeds):
+def beside_lammps(seeds, jobs):
     """Rows (program, seed, d_c nm, contacts within 0.02 a, CPU s), all from the same starts."""
     settings = {"droplet.lifetime": str(LAMMPS_LIFETIME)}
     found = runs.run_all({"bench_peer_inertial": settings | {"integrator.method": "inertial"}, "bench_peer_overdamped": settings},
-                         seeds, os.cpu_count())
-    for seed in seeds:
+                         seeds, jobs)
+    for k, seed in enumerate(seeds):
         for program in ("overdamped", "inertial"):
-            file = ROOT / runs.RESULTS / f"bench_peer_{program}-{seed}.h5"
-            with h5py.File(file) as h5:
-                x = 1e-9 * h5["particles/all/position/value"][-1]
-            cpu = found[f"bench_peer_{program}"][seeds.index(seed)]["cpu_s"]
-            yield f"dryer, {program}", seed, 1e9 * diameter(x, 10e-9), touching(x, 10e-9), cpu
-        x, cpu = lammps.dry(ROOT / runs.RESULTS / f"bench_peer_overdamped-{seed}.h5", LAMMPS_LIFETIME, 215e-9)
-        yield "LAMMPS granular/jkr", seed, 1e9 * diameter(x, 10e-9), touching(x, 10e-9), cpu
+            mine, file = found[f"bench_peer_{program}"][k], ROOT / runs.RESULTS / f"bench_peer_{program}-{seed}.h5"
+            x, radius = runs.last_frame(file)
+            # The same measure for all: that of dryer is done again here as it is for the others.
+            assert abs(runs.diameter(x, radius) / mine["d_c_nm"] - 1) < 1e-6, (file, mine["d_c_nm"])
+            yield f"dryer, {program}", seed, mine["d_c_nm"], mine["within_0_02_a"], mine["cpu_s"]
+        x, cpu = lammps.dry(file)
+        yield "LAMMPS granular/jkr", seed, runs.diameter(1e9 * x, radius), runs.pairs_within(1e9 * x, radius, 0.02), cpu
 
 
 def show(table):
-    print("| row | control | granules | CPU s | d_c error % | contacts error % | overlap a | Gamma |")
-    print("|---|---|---|---|---|---|---|---|", flush=True)
     form = lambda value, half: f"{value:+.1f} +- {half:.1f}" if half else f"{value:.2f}"
-    for r in table:
-        gamma = "" if r["gamma"] is None else f"{r['gamma']:.1f}"
-        print(f"| {r['row']} | {r['case']} | {r['granules']} | {r['cpu_s']:.3g} | {form(r['d_c_percent'], r['d_c_half'])} | "
-              f"{form(r['contacts_percent'], r['contacts_half'])} | {r['overlap_over_a']:.2g} | {gamma} |", flush=True)
+    print_markdown(["row", "control", "granules", "CPU s", "d_c error %", "contacts error %", "overlap a", "Gamma"],
+                   [[r["row"], r["case"], str(r["granules"]), f"{r['cpu_s']:.3g}", form(r["d_c_percent"], r["d_c_half"]),
+                     form(r["contacts_percent"], r["contacts_half"]), f"{r['overlap_over_a']:.2g}",
+                     "" if r["gamma"] is None else f"{r['gamma']:.1f}"] for r in table])
 
 
 def draw(table, out):
@@ -126,27 +110,25 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--rows", nargs="+", choices=[*ROWS, "lammps"], default=[*ROWS, "lammps"])
     parser.add_argument("--seeds", type=int, default=2)
+    parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--out", type=pathlib.Path, default=ROOT / "pipeline/results/bench-dryer")
     options = parser.parse_args()
     runs.require_programs()
     options.out.mkdir(parents=True, exist_ok=True)
     print(f"{runs.machine()}\n")
-    table = [row for name in ROWS if name in options.rows for row in bench_row(name, options.seeds)]
+    table = [row for name in ROWS if name in options.rows for row in bench_row(name, options.seeds, options.jobs)]
     if table:
         show(table)
-        with (options.out / "bench.csv").open("w", newline="") as file:
-            writer = csv.DictWriter(file, table[0].keys())
-            writer.writeheader()
-            writer.writerows(table)
+        write_records(options.out / "bench.csv", table)
         draw(table, options.out / "bench.svg")
     if "lammps" in options.rows:
         if lammps.missing():
             print(f"\nNot compared with LAMMPS: {lammps.missing()}")
             return
         print(f"\nPe = infinity at a lifetime of {1e3 * LAMMPS_LIFETIME:g} ms, full stiffness, same starts:\n")
-        print("| program | seed | d_c nm | pairs within 0.02 a | CPU s |\n|---|---|---|---|---|")
-        for program, seed, d_c, contacts, cpu in beside_lammps(list(range(1, options.seeds + 1))):
-            print(f"| {program} | {seed} | {d_c:.2f} | {contacts} | {cpu:.3g} |", flush=True)
+        print_markdown(["program", "seed", "d_c nm", "pairs within 0.02 a", "CPU s"],
+                       [[program, str(seed), f"{d_c:.2f}", str(contacts), f"{cpu:.3g}"]
+                        for program, seed, d_c, contacts, cpu in beside_lammps(list(range(1, options.seeds + 1)), options.jobs)])
 
 
 if __name__ == "__main__":

@@ -1,18 +1,14 @@
 """The same droplet by LAMMPS: granular/jkr at full stiffness, inertia, drag, the receding surface as a force on each atom."""
 
-import csv
 import math
-import os
 import pathlib
-import resource
 import shutil
-import subprocess
 import tempfile
 
-import h5py
 import numpy
 
-ROOT = pathlib.Path(__file__).resolve().parents[3]
+from drying import peer
+
 # Stable at 10 nm: a third of the contact's period over 2 pi.
 STEP_S = 8e-12
 
@@ -54,22 +50,14 @@ def missing():
     return None if shutil.which("lmp") else "LAMMPS is not installed; on Debian: apt-get install lammps"
 
 
-def constants(radius_nm):
-    with (ROOT / "data/contact_constants.csv").open() as file:
-        rows = csv.DictReader(line for line in file if not line.startswith("#"))
-        return next({k: float(v) for k, v in row.items()} for row in rows if float(row["radius_nm"]) == radius_nm)
-
-
-def settings(radius, lifetime, R0, start, out):
-    c = constants(radius * 1e9)
-    reduced, force = radius / 2, 2 * c["F_po_N"]
-    density, viscosity, k_t = 1300.0, 1e-3, c["k_t_N_m"]
-    mass = density * 4 / 3 * math.pi * radius**3
-    return {"low": -1.05 * R0, "high": 1.05 * R0, "start": start, "out": out, "diameter": 2 * radius, "density": density,
-            "E": 3.4e9, "nu": 0.5, "gamma": 4.8e-3, "k_s": c["k_s_N_per_m"], "mu_s": c["F_s_crit_N"] / force,
-            "k_roll": c["k_r_N_m"] / reduced**2, "mu_roll": c["M_r_crit_N_m"] / reduced / force, "k_twist": k_t,
-            "mu_twist": k_t * 0.05 * math.pi / 4 / force, "skin": 0.2 * radius, "R0": R0, "tau": lifetime, "sigma": 1.75e-4,
-            "a": radius, "damp": mass / (6 * math.pi * viscosity * radius), "step": STEP_S, "steps": round(lifetime / STEP_S)}
+def settings(d, start, out):
+    c, reduced = d["constants"], d["a"] / 2
+    force = 2 * c["F_po_N"]
+    half = 1.05 * d["R0"]
+    return {**d, "low": -half, "high": half, "start": start, "out": out, "diameter": 2 * d["a"], "k_s": c["k_s_N_per_m"],
+            "mu_s": c["F_s_crit_N"] / force, "k_roll": c["k_r_N_m"] / reduced**2, "mu_roll": c["M_r_crit_N_m"] / reduced / force,
+            "k_twist": c["k_t_N_m"], "mu_twist": c["k_t_N_m"] * 0.05 * math.pi / 4 / force, "skin": 0.2 * d["a"],
+            "damp": d["mass"] / (6 * math.pi * d["mu"] * d["a"]), "step": STEP_S, "steps": round(d["tau"] / STEP_S)}
 
 
 def write_start(path, x, half):
@@ -79,21 +67,13 @@ def write_start(path, x, half):
         file.writelines(f"{k + 1} 1 {p[0]:.12g} {p[1]:.12g} {p[2]:.12g}\n" for k, p in enumerate(x))
 
 
-def dry(granule, lifetime, R0):
+def dry(granule):
     """Dries the start of a file of dryer: last positions in m (rows in its order) and CPU seconds."""
-    with h5py.File(granule) as file:
-        x = 1e-9 * file["particles/all/position/value"][0]
-        radius = 1e-9 * float(file["particles/all/radius"][0])
+    d = peer.droplet(granule)
     with tempfile.TemporaryDirectory(prefix="crumble-lammps-") as folder:
         folder = pathlib.Path(folder)
-        write_start(folder / "start.dump", x, 1.05 * R0)
-        (folder / "in.drying").write_text(INPUT.format(**settings(radius, lifetime, R0, folder / "start.dump", folder / "end.dump")))
-        before = resource.getrusage(resource.RUSAGE_CHILDREN)
-        done = subprocess.run(["lmp", "-in", folder / "in.drying", "-log", "none"], cwd=folder, capture_output=True, text=True,
-                              env={**os.environ, "OMP_NUM_THREADS": "1"})
-        after = resource.getrusage(resource.RUSAGE_CHILDREN)
-        if done.returncode != 0:
-            raise RuntimeError(f"lmp: exit code {done.returncode}\n{done.stdout[-2000:]}{done.stderr[-2000:]}")
+        write_start(folder / "start.dump", d["x"], 1.05 * d["R0"])
+        (folder / "in.drying").write_text(INPUT.format(**settings(d, folder / "start.dump", folder / "end.dump")))
+        cpu = peer.run(["lmp", "-in", folder / "in.drying", "-log", "none"], folder)
         rows = numpy.loadtxt(folder / "end.dump", skiprows=9)
-    cpu = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
     return rows[numpy.argsort(rows[:, 0]), 1:4], cpu

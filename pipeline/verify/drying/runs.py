@@ -2,7 +2,6 @@
 
 import argparse
 import concurrent.futures
-import csv
 import datetime
 import json
 import math
@@ -21,7 +20,8 @@ DRYER = "build/release/bin/dryer"
 SCENE = "pipeline/scenes/hollow.toml"
 RESULTS = "pipeline/results/verify"
 
-sys.path.insert(0, str(ROOT / "pipeline/report"))  # interval.py: the intervals of the checks are those of the reports
+sys.path.insert(0, str(ROOT / "pipeline/report"))  # intervals and tables of the checks are those of the reports
+from table import write_csv  # noqa: E402
 
 # Checks that measure CPU seconds run without the companion run that estimates the error, and keep two frames only.
 BARE = {"error.estimate": "false", "output.frames": "0"}
@@ -50,19 +50,29 @@ def run(name, seed, settings, scene=SCENE):
     report = json.loads((ROOT / f"{out}.json").read_text(encoding="utf-8"))
     results, seconds = report["results"], report["cpu_s"]
     print(f"  {name}, seed {seed}: {results['contacts']} contacts, {seconds:.1f} s", file=sys.stderr, flush=True)
-    within = {f"within_{gap}_a".replace(".", "_"): pairs_within(ROOT / f"{out}.h5", gap) for gap in (0.02, 0.05)}
+    last = last_frame(ROOT / f"{out}.h5")
+    within = {f"within_{gap}_a".replace(".", "_"): pairs_within(*last, gap) for gap in (0.02, 0.05)}
     overlap = report["errors"]["largest_overlap_over_a"]["value"]
     return {**results, **within, "overlap": overlap, "seed": seed, "cpu_s": seconds}
 
 
-def pairs_within(name, fraction):
-    """Pairs of the last frame with a gap below this fraction of the radius, bonded or not."""
+def last_frame(name):
+    """Positions and radii, nm."""
     with h5py.File(name) as file:
-        position = file["particles/all/position/value"][-1]
-        radius = file["particles/all/radius"][()]
+        return file["particles/all/position/value"][-1], file["particles/all/radius"][:]
+
+
+def pairs_within(position, radius, fraction):
+    """Pairs with a gap below this fraction of the mean radius, bonded or not."""
     i, j = numpy.triu_indices(len(position), 1)
     gap = numpy.linalg.norm(position[i] - position[j], axis=1) - radius[i] - radius[j]
     return int(numpy.count_nonzero(gap < fraction * radius.mean()))
+
+
+def diameter(position, radius):
+    """d_c of section 3.1 of the paper for equal particles: twice the mean distance of the farthest tenth plus a radius."""
+    r = numpy.sort(numpy.linalg.norm(position - position.mean(axis=0), axis=1))
+    return 2 * (r[-max(1, (len(r) + 5) // 10):].mean() + radius[0])
 
 
 def run_all(cases, seeds, jobs, scene=SCENE):
@@ -97,23 +107,11 @@ def machine():
             + " ".join(version.splitlines()[:2]))
 
 
-def print_table(heading, rows):
-    """Plain Markdown, to be pasted into README.md."""
-    widths = [max(len(row[k]) for row in [heading] + rows) for k in range(len(heading))]
-    line = lambda cells: "| " + " | ".join(cell.ljust(width) for cell, width in zip(cells, widths)) + " |"
-    print(line(heading))
-    print("|" + "|".join("-" * (width + 2) for width in widths) + "|")
-    for row in rows:
-        print(line(row))
-
-
-def write_csv(name, comments, heading, rows):
+def store(name, comment, heading, rows):
+    """As CSV among the results, with what it is and on which machine it was found."""
     path = ROOT / RESULTS / name
     path.parent.mkdir(parents=True, exist_ok=True)
-    with open(path.with_suffix(".csv.tmp"), "w", encoding="utf-8", newline="") as file:
-        file.writelines(f"# {comment}\n" for comment in comments)
-        csv.writer(file, lineterminator="\n").writerows([heading] + rows)
-    path.with_suffix(".csv.tmp").replace(path)
+    write_csv(path, heading, rows, [comment, machine()])
     print(f"written: {path.relative_to(ROOT)}")
 
 

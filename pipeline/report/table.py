@@ -1,0 +1,30 @@
+"""What all tables share: CSV files that are whole or absent, and Markdown."""
+
+import csv
+import os
+
+
+def write_csv(path, heading, rows, comments=()):
+    temporary = f"{path}.tmp"
+    with open(temporary, "w", encoding="utf-8", newline="") as file:
+        file.writelines(f"# {comment}\n" for comment in comments)
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(heading)
+        writer.writerows(rows)
+    os.replace(temporary, path)
+
+
+def write_records(path, records):
+    """Dictionaries with the same keys."""
+    write_csv(path, records[0].keys(), (record.values() for record in records))
+
+
+def print_markdown(heading, rows):
+    """Aligned, to be read as it stands or pasted into a README.md."""
+    rows = list(rows)
+    widths = [max(len(row[k]) for row in [heading, *rows]) for k in range(len(heading))]
+    line = lambda cells: "| " + " | ".join(cell.ljust(width) for cell, width in zip(cells, widths)) + " |"
+    print(line(heading))
+    print("|" + "|".join("-" * (width + 2) for width in widths) + "|")
+    for row in rows:
+        print(line(row))
