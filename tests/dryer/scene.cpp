@@ -103,6 +103,8 @@ INSTANTIATE_TEST_SUITE_P(
         Malformed{"poisson_beyond_half", PARTICLE DROPLET "[material]\npoisson_ratio = 0.6\n",
                   "material.poisson_ratio"},
         Malformed{"huge_step", PARTICLE DROPLET "[integrator]\nlargest_displacement = 3\n", "largest_displacement"},
+        Malformed{"short_step_ten_times_too_long", PARTICLE DROPLET "[integrator]\ncontact_step = 1.5\n",
+                  "integrator.contact_step"},
         Malformed{"radius_as_text", "[particle]\nradius = \"10 nm\"\nnumber = 115\n" DROPLET, "particle.radius"}),
     [](const auto& given) { return std::string(given.param.name); });
 
