@@ -1,6 +1,6 @@
-"""Time against error of the dryer: step control, stiffness and integrator on the rows of Table 2, and LAMMPS beside it.
+"""Time against error of the dryer: step control, stiffness and integrator on the rows of Table 2, LAMMPS and Yade beside it.
 
-    bench.py [--rows hollow intermediate compact lammps] [--seeds 2] [--jobs 2] [--out pipeline/results/bench-dryer]
+    bench.py [--rows hollow intermediate compact lammps yade] [--seeds 2] [--jobs 2] [--out pipeline/results/bench-dryer]
 
 Errors against the reference of each row: hollow against the inertial integrator at full stiffness, same starts (mean of the
 absolute differences); with noise against full stiffness, differences of means with their 95 % interval. Gamma: concentration at
@@ -19,7 +19,7 @@ sys.path[:0] = [str(ROOT / "pipeline/verify"), str(ROOT / "pipeline/report")]
 
 import concentration  # noqa: E402
 import interval  # noqa: E402
-from drying import lammps, runs  # noqa: E402
+from drying import lammps, runs, yade  # noqa: E402
 from figure import LINES, pyplot, save  # noqa: E402
 from table import print_markdown, write_records  # noqa: E402
 
@@ -36,7 +36,9 @@ ROWS = {
     "compact": ("pipeline/scenes/compact.toml", 1, 1, ("softening 1", {"integrator.softening": "1"}),
                 {"softening 3": {"integrator.softening": "3"}, "softening 2": {"integrator.softening": "2"}, "default": {}}),
 }
-LAMMPS_LIFETIME = 2.1e-5  # a tenth of Table 2's, for both
+PEERS_LIFETIME = 2.1e-5  # a tenth of Table 2's, for all
+# Other codes, from the package if it is there: what dryer is told for the same physics.
+PEERS = {"lammps": ("LAMMPS granular/jkr", lammps, {}), "yade": ("Yade, linear contacts", yade, yade.SETTINGS)}
 
 
 def gamma_deviation(dryer, peclet, names):
@@ -70,20 +72,21 @@ def bench_row(name, seeds, jobs):
                "overlap_over_a": overlap, "gamma": gamma_deviation(str(ROOT / runs.DRYER), peclet, files) if peclet else None}
 
 
-def beside_lammps(seeds, jobs):
-    """Rows (program, seed, d_c nm, contacts within 0.02 a, CPU s), all from the same starts."""
-    settings = {"droplet.lifetime": str(LAMMPS_LIFETIME)}
-    found = runs.run_all({"bench_peer_inertial": settings | {"integrator.method": "inertial"}, "bench_peer_overdamped": settings},
+def beside(peer, seeds, jobs):
+    """Rows (program, seed, d_c nm, pairs within 0.02 a, CPU s), all from the same starts."""
+    label, code, settings = PEERS[peer]
+    settings = settings | {"droplet.lifetime": str(PEERS_LIFETIME)}
+    found = runs.run_all({f"bench_{peer}_inertial": settings | {"integrator.method": "inertial"}, f"bench_{peer}_overdamped": settings},
                          seeds, jobs)
     for k, seed in enumerate(seeds):
         for program in ("overdamped", "inertial"):
-            mine, file = found[f"bench_peer_{program}"][k], ROOT / runs.RESULTS / f"bench_peer_{program}-{seed}.h5"
+            mine, file = found[f"bench_{peer}_{program}"][k], ROOT / runs.RESULTS / f"bench_{peer}_{program}-{seed}.h5"
             x, radius = runs.last_frame(file)
             # The same measure for all: that of dryer is done again here as it is for the others.
             assert abs(runs.diameter(x, radius) / mine["d_c_nm"] - 1) < 1e-6, (file, mine["d_c_nm"])
             yield f"dryer, {program}", seed, mine["d_c_nm"], mine["within_0_02_a"], mine["cpu_s"]
-        x, cpu = lammps.dry(file)
-        yield "LAMMPS granular/jkr", seed, runs.diameter(1e9 * x, radius), runs.pairs_within(1e9 * x, radius, 0.02), cpu
+        x, cpu = code.dry(file)
+        yield label, seed, runs.diameter(1e9 * x, radius), runs.pairs_within(1e9 * x, radius, 0.02), cpu
 
 
 def show(table):
@@ -108,7 +111,7 @@ def draw(table, out):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--rows", nargs="+", choices=[*ROWS, "lammps"], default=[*ROWS, "lammps"])
+    parser.add_argument("--rows", nargs="+", choices=[*ROWS, *PEERS], default=[*ROWS, *PEERS])
     parser.add_argument("--seeds", type=int, default=2)
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--out", type=pathlib.Path, default=ROOT / "pipeline/results/bench-dryer")
@@ -121,14 +124,17 @@ def main():
         show(table)
         write_records(options.out / "bench.csv", table)
         draw(table, options.out / "bench.svg")
-    if "lammps" in options.rows:
-        if lammps.missing():
-            print(f"\nNot compared with LAMMPS: {lammps.missing()}")
-            return
-        print(f"\nPe = infinity at a lifetime of {1e3 * LAMMPS_LIFETIME:g} ms, full stiffness, same starts:\n")
+    for peer, (label, code, settings) in PEERS.items():
+        if peer not in options.rows:
+            continue
+        if code.missing():
+            print(f"\nNot compared with {label}: {code.missing()}")
+            continue
+        chosen = ", ".join(f"{key} = {value}" for key, value in settings.items()) or "defaults, full stiffness"
+        print(f"\nPe = infinity at a lifetime of {1e3 * PEERS_LIFETIME:g} ms, same starts; {chosen}:\n")
         print_markdown(["program", "seed", "d_c nm", "pairs within 0.02 a", "CPU s"],
                        [[program, str(seed), f"{d_c:.2f}", str(contacts), f"{cpu:.3g}"]
-                        for program, seed, d_c, contacts, cpu in beside_lammps(list(range(1, options.seeds + 1)), options.jobs)])
+                        for program, seed, d_c, contacts, cpu in beside(peer, list(range(1, options.seeds + 1)), options.jobs)])
 
 
 if __name__ == "__main__":

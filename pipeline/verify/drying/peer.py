@@ -3,15 +3,13 @@
 import csv
 import math
 import os
-import pathlib
 import resource
 import subprocess
 
 import h5py
 
-ROOT = pathlib.Path(__file__).resolve().parents[3]
-
-import scene  # noqa: E402  (runs.py has put pipeline/report on the path)
+from drying.runs import ROOT  # also puts pipeline/report on the path
+import scene  # noqa: E402
 
 
 def droplet(granule):
@@ -21,7 +19,7 @@ def droplet(granule):
         said = scene.resolved(file)
     keys = {"R0": ("droplet", "radius"), "tau": ("droplet", "lifetime"), "sigma": ("liquid", "surface_tension"),
             "mu": ("liquid", "viscosity"), "E": ("material", "youngs_modulus"), "nu": ("material", "poisson_ratio"),
-            "gamma": ("material", "surface_energy"), "density": ("material", "density")}
+            "gamma": ("material", "surface_energy"), "density": ("material", "density"), "friction": ("contact", "friction")}
     found |= {key: scene.number(said, *place) for key, place in keys.items()}
     return found | {"constants": constants(found), "mass": found["density"] * 4 / 3 * math.pi * found["a"] ** 3}
 
