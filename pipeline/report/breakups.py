@@ -29,8 +29,8 @@ def row(path, found, rigid):
     r, error = found["results"], found["errors"]["critical_stress_relative"]["value"]
     uncertain = "" if error is None else f" +- {100 * error:.1g} %"
     theirs = [f"{stress} Pa" for stress in published.BREAKUPS.get(kind(path), ())] or ["", ""]
-    return [path.stem, f"{r['critical_stress_pa']:.0f} Pa{uncertain}", theirs[0], f"{rigid:.0f} Pa", theirs[1],
-            f"{r['critical_stress_pa'] / rigid:.2f}", f"{r['first_rupture_stress_pa']:.0f} Pa",
+    return [path.stem, f"{r['critical_stress_pa']:.0f} Pa{uncertain}", theirs[0], "settles nowhere" if rigid is None else f"{rigid:.0f} Pa", theirs[1],
+            "" if rigid is None else f"{r['critical_stress_pa'] / rigid:.2f}", f"{r['first_rupture_stress_pa']:.0f} Pa",
             f"{r['contacts_initial']} -> {r['contacts_at_breakup']}", f"{100 * r['rg_change_relative']:+.1f} %",
             f"{100 * r['largest_semi_axis_change_relative']:+.1f} %, {100 * r['smallest_semi_axis_change_relative']:+.1f} %",
             r["breakage"], " ".join(map(str, r["fragments"][:4])), f"{found['cpu_s']:.0f}"]
@@ -39,9 +39,11 @@ def row(path, found, rigid):
 def main(paths):
     loaded = [(path, *load(path)) for path in paths]
     print_markdown(HEADING, [row(*one) for one in loaded])
-    means = {name: [statistics.fmean(values) for values in zip(*((found["results"]["critical_stress_pa"], rigid)
-                                                                 for path, found, rigid in loaded if kind(path) == name))]
-             for name in dict.fromkeys(kind(path) for path in paths)}
+    means = {}
+    for path, found, rigid in loaded:
+        if rigid is not None:
+            means.setdefault(kind(path), []).append((found["results"]["critical_stress_pa"], rigid))
+    means = {name: [statistics.fmean(values) for values in zip(*pairs)] for name, pairs in means.items()}
     print()
     for name, (flexible, rigid) in means.items():
         print(f"{name}: mean {flexible:.0f} Pa, rigid {rigid:.0f} Pa")

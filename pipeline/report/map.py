@@ -17,6 +17,7 @@ from table import print_markdown, write_records
 QUANTITIES = [("d_c_nm", "d_c, nm"), ("h_c_over_d_c", "h_c/d_c"), ("porosity", "porosity"), ("coordination", "coordination"),
               ("critical_stress_pa", "critical stress, Pa")]
 WATER = 1e-3  # Pa s
+STRESSES = (2000, 3000, 4000, 5000, 6000, 8000)  # Pa
 
 
 def read(folder, stem):
@@ -24,7 +25,7 @@ def read(folder, stem):
     load = json.loads((folder / f"{stem}-load.json").read_text())["results"]
     r = dried["results"]
     # The flow stress at which the weakest contact gives way in the orientation to which a granule settles in elongation.
-    return {"peclet": r["inputs"]["peclet"], "number": r["inputs"]["number"], "solids": r["inputs"]["solids_fraction"],
+    return {"peclet": float(f"{r['inputs']['peclet']:.9g}"), "number": r["inputs"]["number"], "solids": r["inputs"]["solids_fraction"],
             "d_c_nm": r["d_c_nm"], "h_c_over_d_c": r["h_c_over_d_c"], "porosity": r["porosity"],
             "coordination": r["coordination"], "fragments": r["fragments"],
             "critical_stress_pa": load["elongation"]["critical_stress_settled_pa"], "cpu_s": dried["cpu_s"]}
@@ -35,7 +36,7 @@ def rows(runs):
         group = [run for run in runs if (run["peclet"], run["number"], run["solids"]) == key]
         row = {"peclet": key[0], "number": key[1], "solids": key[2], "granules": len(group)}
         for name, _ in QUANTITIES:
-            values = [run[name] for run in group]
+            values = [run[name] for run in group if run[name] is not None] or [math.nan]  # a granule may settle nowhere
             row |= {name: statistics.fmean(values), name + "_lowest": min(values), name + "_highest": max(values)}
         row["fragments"] = statistics.fmean(run["fragments"] for run in group)
         if row["fragments"] > key[1] / 10:  # dust, no granule: what is left of it has a strength, but not that of a granule
@@ -51,23 +52,47 @@ def usual(table):
                key=lambda pair: sum((row["number"], row["solids"]) == pair for row in table))
 
 
+def short(value, digits):
+    """So many digits, no exponent below a million."""
+    return f"{float(f'{value:.{digits}g}'):g}"
+
+
 def show(table):
-    cell = lambda row, name: ("dust" if math.isnan(row[name]) else
-                              f"{row[name]:.3g} ({row[name + '_lowest']:.3g} to {row[name + '_highest']:.3g})")
+    cell = lambda row, name: ("-" if math.isnan(row[name]) else
+                              f"{short(row[name], 3)} ({short(row[name + '_lowest'], 3)} to {short(row[name + '_highest'], 3)})")
     print_markdown(["Pe", "N", "solids %", "granules", *(label for _, label in QUANTITIES), "fragments", "CPU s"],
                    [[f"{row['peclet']:g}", str(row["number"]), f"{100 * row['solids']:.2g}", str(row["granules"]),
                      *(cell(row, name) for name, _ in QUANTITIES), f"{row['fragments']:.1f}", f"{row['cpu_s']:.3g}"]
                     for row in table])
     print("\nMean (lowest to highest of the granules). Critical stress: rigid, planar elongation, settled, particles of 100 nm; it\n"
-          "goes as surface energy over radius. The shear rate that reaches it is the stress over the viscosity of the liquid.\n")
-    scan = [row for row in table if (row["number"], row["solids"]) == usual(table) and not math.isnan(row["critical_stress_pa"])]
-    for low, high in zip(scan, scan[1:]):
-        a, b = sorted((low["critical_stress_pa"], high["critical_stress_pa"]))
-        for stress in (1000, 1500, 2000, 3000, 5000, 7000):
-            if a <= stress < b:
-                part = math.log(stress / low["critical_stress_pa"]) / math.log(high["critical_stress_pa"] / low["critical_stress_pa"])
-                peclet = math.exp(math.log(low["peclet"]) + part * math.log(high["peclet"] / low["peclet"]))
-                print(f"{stress} Pa ({stress / WATER:.1g} 1/s in water): dry at Pe = {peclet:.2g}")
+          "goes as surface energy over radius; a granule that settles nowhere is left out, dust (more than N/10 pieces) has none. The shear rate that reaches it is the stress over the viscosity of the liquid.\n")
+    answer([row for row in table if (row["number"], row["solids"]) == usual(table) and not math.isnan(row["critical_stress_pa"])])
+
+
+def answer(scan):
+    """Peclet numbers that give a stress, where the stress falls with them."""
+    first = len(scan) - 1
+    while first > 0 and scan[first - 1]["critical_stress_pa"] > scan[first]["critical_stress_pa"]:
+        first -= 1
+    dense, falling = scan[:first + 1], scan[first:]
+    if len(dense) > 1:
+        print(f"Up to Pe = {dense[-1]['peclet']:g} the stress does not follow the Peclet number: means from "
+              f"{min(row['critical_stress_pa'] for row in dense):.0f} to {max(row['critical_stress_pa'] for row in dense):.0f} Pa, single "
+              f"granules from {min(row['critical_stress_pa_lowest'] for row in dense):.0f} to "
+              f"{max(row['critical_stress_pa_highest'] for row in dense):.0f} Pa. Beyond:\n")
+    cell = lambda peclet: "-" if peclet is None else short(peclet, 2)
+    print_markdown(["to break at, Pa", "that is in water, 1/s", "dry at Pe", "if like the weakest granules", "like the strongest"],
+                   [[str(stress), f"{stress / WATER:.1g}", *(cell(peclet_for(stress, falling, name)) for name in (
+                       "critical_stress_pa", "critical_stress_pa_lowest", "critical_stress_pa_highest"))] for stress in STRESSES])
+
+
+def peclet_for(stress, falling, name):
+    """Between two rows as a power law; nothing beyond them."""
+    for low, high in zip(falling, falling[1:]):
+        if low[name] >= stress >= high[name]:
+            part = math.log(stress / low[name]) / math.log(high[name] / low[name])
+            return math.exp(math.log(low["peclet"]) + part * math.log(high["peclet"] / low["peclet"]))
+    return None
 
 
 def panel(axes, scan, x, name, label, colour):

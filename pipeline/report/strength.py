@@ -34,10 +34,12 @@ def rows(name, reports):
     cpu = statistics.fmean(report["cpu_s"] for report in reports)
     coordination = statistics.fmean(r["coordination"] for r in results)
     for case, n_max, stress in CASES:
-        n = [r[n_max[0]][n_max[1]] for r in results]
-        critical = [r[stress[0]][stress[1]] for r in results]
+        n, critical = ([value for r in results if (value := r[of[0]][of[1]]) is not None]  # some settle nowhere
+                       for of in (n_max, stress))
+        if not n:
+            continue
         paper = published.STRENGTH.get(name, {}).get(case, ("", ""))
-        yield {"population": name, "agglomerates": len(results), "coordination": f"{coordination:.2f}", "flow": case,
+        yield {"population": name, "agglomerates": len(n), "coordination": f"{coordination:.2f}", "flow": case,
                "n_max": f"{statistics.fmean(n):.2f}", "spread": f"{several(statistics.stdev, n):.2f}",
                "half_width": f"{several(half_width, n):.2f}", "error_percent": f"{100 * error:.1f}",
                "critical_stress_pa": f"{statistics.fmean(critical):.0f}", "spread_pa": f"{several(statistics.stdev, critical):.0f}",

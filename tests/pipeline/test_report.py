@@ -1,6 +1,7 @@
 """What the scripts of pipeline/report share, and that they take from a file what stands in it."""
 
 import contextlib
+import importlib
 import io
 import math
 import pathlib
@@ -14,6 +15,7 @@ import numpy
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "pipeline/report"))
 import concentration
 import table
+drying_map = importlib.import_module("map")  # not to hide the built-in
 
 SCENE = """[liquid]
 temperature = {temperature}  # K
@@ -47,6 +49,40 @@ class Tables(InAFolder):
         with contextlib.redirect_stdout(out):
             table.print_markdown(["a", "long"], ([x, "y"] for x in ("1", "22")))
         self.assertEqual(out.getvalue(), "| a  | long |\n|----|------|\n| 1  | y    |\n| 22 | y    |\n")
+
+
+class Map(unittest.TestCase):
+    def scan(self, *stresses):
+        return [{"peclet": float(10**k), **{f"critical_stress_pa{which}": factor * stress
+                                           for which, factor in (("", 1), ("_lowest", 0.5), ("_highest", 2))}}
+                for k, stress in enumerate(stresses)]
+
+    def said(self, scan):
+        out = io.StringIO()
+        with contextlib.redirect_stdout(out):
+            drying_map.answer(scan)
+        return out.getvalue()
+
+    def test_between_two_rows_the_stress_is_a_power_of_the_peclet_number(self):
+        scan = self.scan(8000, 4000, 1000)  # Pe = 1, 10, 100
+        self.assertAlmostEqual(drying_map.peclet_for(2000, scan, "critical_stress_pa"), 10 * math.sqrt(10))
+        self.assertAlmostEqual(drying_map.peclet_for(2000, scan, "critical_stress_pa_lowest"), 10)
+        self.assertIsNone(drying_map.peclet_for(500, scan, "critical_stress_pa"))
+
+    def test_only_where_it_falls_does_the_stress_name_a_peclet_number(self):
+        text = self.said(self.scan(5000, 3000, 6000, 1500))
+        self.assertIn("Up to Pe = 100 ", text)
+        self.assertIn("means from 3000 to 6000 Pa, single granules from 1500 to 12000 Pa", text)
+        row = next(line for line in text.splitlines() if line.startswith("| 3000 "))
+        self.assertEqual([cell.strip() for cell in row.strip("|").split("|")][2:], ["320", "100", "1000"])
+
+    def test_a_granule_that_settles_nowhere_is_left_out_of_the_stress_alone(self):
+        run = {"peclet": 1.0, "number": 85, "solids": 0.01, "d_c_nm": 100, "h_c_over_d_c": 0.4, "porosity": 0.5, "coordination": 4,
+               "fragments": 1, "critical_stress_pa": 4000, "cpu_s": 1}
+        (row,) = drying_map.rows([run, run | {"d_c_nm": 200, "critical_stress_pa": None}])
+        self.assertEqual((row["critical_stress_pa"], row["d_c_nm"], row["granules"]), (4000, 150, 2))
+        (row,) = drying_map.rows([run | {"critical_stress_pa": None}])
+        self.assertTrue(math.isnan(row["critical_stress_pa"]))
 
 
 class Concentration(InAFolder):
