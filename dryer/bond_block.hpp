@@ -1,4 +1,4 @@
-// Bonds in structure-of-arrays form: the law of many bonds at once, for the integrator that takes very many short
+// Bonds in structure-of-arrays form: the law of many bonds at once, for the integrators that take very many short
 // steps.
 #pragma once
 
@@ -8,62 +8,67 @@
 
 #include "common/agglomerate/agglomerate.hpp"
 #include "common/contact/bond_law.hpp"
+#include "dryer/lane.hpp"
 
 namespace crumble {
 
-// Arrays of a block are filled up to whole vector registers.
-inline constexpr std::size_t lanes = 8;
-constexpr std::size_t padded(std::size_t count) { return (count + lanes - 1) / lanes * lanes; }
-
-// A vector a particle or bond, one array a component.
-using Triple = std::array<std::vector<double>, 3>;
-
-// Positions, rotations and loads of a set of particles, one array a component. Index: place in the set.
+// Positions and rotations of a set of particles. Index: place in the set. Positions need all digits, since gaps
+// are differences of them; everything else is a small number of its own.
 struct MotionBlock {
-  Triple position;  // m
-  Triple rotation;  // rotation vector since the bonds were last advanced, rad
-  Triple force;     // N
-  Triple torque;    // N m
+  std::vector<DoubleRow> position;  // m
+  std::vector<Row> rotation;        // rotation vector since the bonds were last advanced, rad
 
   void resize(std::size_t count);
 };
 
 // The same law as advance(Contact&, ...) of common/agglomerate/bond.hpp, which is its reference: histories carried with
 // the co-rotating frame, increased at the mid normal, capped. Only the normal law of JKR. Rotations of one step must be
-// small (their cubes are neglected).
+// small (their cubes are neglected). Single precision: loads are good to 1e-5 of the pull-off force.
 class BondBlock {
  public:
   std::size_t size() const { return count_; }
-  void clear();
+  void clear(std::size_t places);  // of the motion block
   // i, j: places of the two spheres in the motion block; lost_gap: beyond it the bond is lost, m.
   void add(const Contact& bond, std::int32_t i, std::int32_t j, const BondLaw& law, double a_i, double a_j,
            double lost_gap);
   void remove(std::size_t bond);  // the last one takes its place
-  // Gap, normal, histories and loads back into a bond.
+  // Gap, normal and histories back into a bond.
   void store(std::size_t bond, Contact& contact) const;
 
-  // Moves all bonds to the positions of the block, and adds their loads to force and torque. Bonds that are beyond
-  // their reach get no load and are listed in lost(), ascending.
-  void advance(MotionBlock& motion);
+  // Moves all bonds to the positions of the block and finds their loads. Bonds that are beyond their reach pull no more
+  // and are listed in lost(), ascending.
+  void advance(const MotionBlock& motion);
+  // What the bonds do to a place, N and N m.
+  struct Load {
+    Quad force, torque;
+  };
+  Load load_on(std::size_t place) const;
   const std::vector<std::int32_t>& lost() const { return lost_; }
-  double deepest_overlap() const { return deepest_; }  // of all steps since clear(), m
+  double deepest_overlap() const { return deepest_.maxCoeff(); }  // of all steps since clear(), m
 
   std::int32_t first(std::size_t bond) const { return i_[bond]; }
   std::int32_t second(std::size_t bond) const { return j_[bond]; }
 
  private:
-  using Lane = Eigen::Array<double, lanes, 1>;  // one vector register of numbers
-  struct Loads {
-    std::array<Lane, 3> force, torque_i, torque_j;  // on j; torques on both, N and N m
+  // Forces on j of the bonds of a register, and torques on both ends: on i, then on j.
+  struct alignas(64) Loads {
+    std::array<Row, lanes> force;
+    std::array<Row, 2 * lanes> torque;
   };
-  void follow(const MotionBlock& motion);
-  Loads move(std::size_t first);
-  void collect(std::size_t first, const Loads& loads, MotionBlock& motion);
+  // An end of a bond: register, side (0: i, 1: j) and row in one number.
+  static std::int32_t end_of(std::size_t bond, std::size_t side) {
+    return static_cast<std::int32_t>(bond / lanes * (2 * lanes) + side * lanes + row_of(bond % lanes));
+  }
+  using Triple = std::array<std::vector<float>, 3>;  // a vector a bond, one array a component
+  void move(std::size_t first, const MotionBlock& motion, Lane& holding);
+  void link(std::int32_t place, std::int32_t end);
+  void unlink(std::int32_t place, std::int32_t end);
 
   // What depends on the pair's radii and the material alone. most: displacement at which a spring yields.
   enum Constant : std::size_t {
     radius_i,
     radius_j,
+    sum_of_radii,
     inverse_reach,
     inverse_length,
     pull_off,
@@ -79,15 +84,34 @@ class BondBlock {
   std::size_t count_ = 0;
   std::vector<std::int32_t> i_, j_, lost_;
   std::vector<std::int64_t> born_;
-  Triple apart_, turn_i_, turn_j_;  // of the two ends now: x_j - x_i, m, and their rotations
-  Triple normal_, sliding_, rolling_;
-  std::vector<double> twisting_, gap_, lost_gap_;
-  std::array<std::vector<double>, constant_count> constants_;
+  Triple apart_, normal_, sliding_, rolling_;  // apart: from i to j, m
+  std::vector<float> twisting_, gap_, lost_gap_;
+  std::array<std::vector<float>, constant_count> constants_;
   bool uniform_ = true;  // all bonds have the same constants
-  double deepest_ = 0;
+  std::vector<Loads> loads_;
+  std::vector<float> holds_;  // 1; 0 if the bond is beyond its reach
+  Lane deepest_ = Lane::Zero();
+
+  // The ends of bonds at each place: capacity_ entries a place, of which degree_ are in use.
+  std::size_t capacity_ = 16;
+  std::vector<std::int32_t> links_;
+  std::vector<std::int32_t> degree_;
 
   template <class Visit>
   void each_array(Visit visit);
 };
+
+// In the order of its links: the same bits, however many threads ask.
+inline BondBlock::Load BondBlock::load_on(std::size_t place) const {
+  Load sum{};
+  const std::int32_t* links = links_.data() + place * capacity_;
+  for (std::int32_t k = 0; k < degree_[place]; ++k) {
+    const auto end = static_cast<std::size_t>(links[k]), side = end / lanes % 2;
+    const Loads& loads = loads_[end / (2 * lanes)];
+    sum.force += all(side == 0 ? -1.0f : 1.0f) * load(loads.force[end % lanes]);
+    sum.torque += load(loads.torque[end % (2 * lanes)]);
+  }
+  return sum;
+}
 
 }  // namespace crumble

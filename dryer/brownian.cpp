@@ -106,26 +106,32 @@ void Brownian::classify() {
 void Brownian::gather() {
   const Frame& f = state_.state;
   const auto& radius = state_.particles.radius;
-  const std::size_t size = padded(fast_.size());
-  motion_.resize(fast_.size());
-  for (auto* array : {&block_.drag[0], &block_.drag[1], &block_.noise[0], &block_.noise[1], &block_.radius})
-    array->assign(size, 0);
-  for (auto& array : block_.ahead) array.assign(size, 0);
+  const std::size_t count = fast_.size(), stride = padded(noisy_);
+  motion_.resize(count);
+  block_.radius.resize(count);
+  block_.radius_in_single.assign(padded(count), 0);
+  block_.pull.assign(padded(count), 0);
+  for (auto* array : {&block_.drag[0], &block_.drag[1], &block_.noise[0], &block_.noise[1]}) array->resize(count);
+  for (auto& array : block_.ahead) array.resize(count);
   for (std::size_t m = 0; m < fast_.size(); ++m) {
     const auto p = static_cast<std::int32_t>(fast_[m]);
     const bool dry = is_dry(p);
     const double mobile = dry ? 1 / model_.dry.drag_factor : 1;
     const double kT = dry && !model_.dry.everything_acts ? 0 : model_.thermal_energy;
-    block_.drag[0][m] = mobile * drag_[p];
-    block_.drag[1][m] = mobile * turning_drag_[p];
-    for (int k = 0; k < 2; ++k) block_.noise[k][m] = std::sqrt(0.5 * kT * block_.drag[k][m]);
+    const double drag[2] = {mobile * drag_[p], mobile * turning_drag_[p]};
+    for (int k = 0; k < 2; ++k) {
+      block_.drag[k][m] = static_cast<float>(drag[k]);
+      block_.noise[k][m] = static_cast<float>(std::sqrt(0.5 * kT * drag[k]));
+    }
     block_.radius[m] = radius[p];
-    for (int k = 0; k < 3; ++k) motion_.position[k][m] = f.position[p][k];
-    for (int k = 0; k < 6; ++k) block_.ahead[k][m] = ahead_[p][k];
+    block_.radius_in_single[m] = static_cast<float>(radius[p]);
+    motion_.position[m] = double_row(f.position[p]);
+    block_.ahead[0][m] = row(ahead_[p].head<3>());
+    block_.ahead[1][m] = row(ahead_[p].tail<3>());
   }
-  bonds_.clear();
+  bonds_.clear(fast_.size());
   for (const Contact& bond : f.contacts) add_bond(bond, place_[bond.i], place_[bond.j]);
-  path_.fill({fast_.data(), noisy_}, static_cast<std::uint64_t>(statistics_.steps), control_.depth, size, noise_);
+  path_.fill({fast_.data(), noisy_}, static_cast<std::uint64_t>(statistics_.steps), control_.depth, stride, noise_);
 }
 
 // How far a bond is made before the surfaces touch and lost before its law lets go, m. Events of a diffusion that is
@@ -147,6 +153,7 @@ void Brownian::fast_step(int step) {
   predict(step);
   touch();
   bonds_.advance(motion_);
+  push();
   const auto& lost = bonds_.lost();
   for (auto b = lost.rbegin(); b != lost.rend(); ++b) {
     const auto bond = static_cast<std::size_t>(*b);
@@ -156,50 +163,67 @@ void Brownian::fast_step(int step) {
     bonds_.remove(bond);
     ++statistics_.contacts_lost;
   }
-  surface();
-  look_ahead();
 }
 
 // Moves to where the contacts live, half of this step's noise beyond y, and keeps the other half for later.
 void Brownian::predict(int step) {
-  const std::size_t size = block_.radius.size();
-  for (int k = 0; k < 6; ++k) {
-    const double* dW = noise_.data() + (static_cast<std::size_t>(step) * 6 + static_cast<std::size_t>(k)) * size;
-    const double* noise = block_.noise[k / 3].data();
-    double *x = motion_.position[k % 3].data(), *w = motion_.rotation[k % 3].data(), *ahead = block_.ahead[k].data();
-    double* load = k < 3 ? motion_.force[k].data() : motion_.torque[k - 3].data();
-    for (std::size_t first = 0; first < size; first += lanes)
-#pragma omp simd
-      for (std::size_t m = first; m < first + lanes; ++m) {
-        const double half = noise[m] * dW[m];
-        if (k < 3)
-          x[m] += ahead[m] + half;
-        else
-          w[m] = ahead[m] + half;
-        ahead[m] = half;
-        load[m] = 0;
-      }
+  const auto move = [&](std::size_t m, Quad half, Quad half_turn) {
+    store(motion_.position[m], load(motion_.position[m]) + in_double(load(block_.ahead[0][m]) + half));
+    store(motion_.rotation[m], load(block_.ahead[1][m]) + half_turn);
+    store(block_.ahead[0][m], half);
+    store(block_.ahead[1][m], half_turn);
+  };
+  const std::size_t stride = padded(noisy_);
+  const float* dW = noise_.data() + static_cast<std::size_t>(step) * 6 * stride;
+  for (std::size_t first = 0; first < noisy_; first += lanes) {
+    const auto component = [&](std::size_t k) { return read(dW + k * stride + first); };
+    Row noise[2][lanes];
+    to_rows({component(0), component(1), component(2)}, noise[0]);
+    to_rows({component(3), component(4), component(5)}, noise[1]);
+    for (std::size_t m = first; m < std::min(first + lanes, noisy_); ++m) {
+      const std::size_t l = row_of(m - first);
+      move(m, all(block_.noise[0][m]) * load(noise[0][l]), all(block_.noise[1][m]) * load(noise[1][l]));
+    }
+  }
+  for (std::size_t m = noisy_; m < fast_.size(); ++m) move(m, Quad{}, Quad{});
+}
+
+// Adds the way that the loads push within the step.
+void Brownian::push() {
+  surface();
+  for (std::size_t m = 0; m < fast_.size(); ++m) {
+    const auto [force, torque] = bonds_.load_on(m);
+    const Quad total = force + all(block_.pull[m]) * in_single(load(motion_.position[m]));
+    store(block_.ahead[0][m], load(block_.ahead[0][m]) + all(block_.drag[0][m]) * total);
+    store(block_.ahead[1][m], load(block_.ahead[1][m]) + all(block_.drag[1][m]) * torque);
   }
 }
 
-void Brownian::look_ahead() {
-  const std::size_t size = block_.radius.size();
-  for (int k = 0; k < 6; ++k) {
-    const double *load = k < 3 ? motion_.force[k].data() : motion_.torque[k - 3].data(),
-                 *drag = block_.drag[k / 3].data();
-    double* ahead = block_.ahead[k].data();
-    for (std::size_t first = 0; first < size; first += lanes)
+void Brownian::surface() {
+  const float R = static_cast<float>(R_),
+              factor = static_cast<float>(-2 * std::numbers::pi * model_.droplet.surface_tension);
+  const std::size_t count = fast_.size();
+  float* pull = block_.pull.data();
+  if (R == 0) return;
+  for (std::size_t m = 0; m < count; ++m) {
+    const double* x = motion_.position[m].at;
+    pull[m] = static_cast<float>(x[0] * x[0] + x[1] * x[1] + x[2] * x[2] - R_ * R_);
+  }
+  const float* radius = block_.radius_in_single.data();
 #pragma omp simd
-      for (std::size_t m = first; m < first + lanes; ++m) ahead[m] += drag[m] * load[m];
+  for (std::size_t m = 0; m < padded(count); ++m) {
+    const float excess = pull[m], a = radius[m], r = std::sqrt(std::max(excess + R * R, 0.0f)),
+                offset = excess / (r + R);
+    const float squared = r + R > a ? std::max((a - offset) * (a + offset), 0.0f) : 0.0f;
+    pull[m] = factor * std::sqrt(squared) / std::max(r, 1e-6f * R);
   }
 }
 
 // Bonds what touches.
 void Brownian::touch() {
-  const double *x = motion_.position[0].data(), *y = motion_.position[1].data(), *z = motion_.position[2].data();
   for (std::size_t q = 0; q < open_places_.size();) {
     const auto [i, j] = open_places_[q];
-    const Vector3 D(x[j] - x[i], y[j] - y[i], z[j] - z[i]);
+    const Vector3 D = vector(motion_.position[j]) - vector(motion_.position[i]);
     const double a_i = block_.radius[i], a_j = block_.radius[j], reach = a_i + a_j + early(i, j);
     if (D.squaredNorm() > reach * reach) {
       ++q;
@@ -213,32 +237,13 @@ void Brownian::touch() {
   }
 }
 
-void Brownian::surface() {
-  const double sigma = model_.droplet.surface_tension, R = R_;
-  if (R == 0) return;
-  const double *x = motion_.position[0].data(), *y = motion_.position[1].data(), *z = motion_.position[2].data();
-  double *fx = motion_.force[0].data(), *fy = motion_.force[1].data(), *fz = motion_.force[2].data();
-  const double* radius = block_.radius.data();
-  const std::size_t size = block_.radius.size();
-  for (std::size_t first = 0; first < size; first += lanes)
-#pragma omp simd
-    for (std::size_t m = first; m < first + lanes; ++m) {
-      const double r = std::sqrt(x[m] * x[m] + y[m] * y[m] + z[m] * z[m]), a = radius[m], offset = r - R;
-      const double squared = r + R > a ? std::max((a - offset) * (a + offset), 0.0) : 0.0;
-      const double pull = -2 * std::numbers::pi * sigma * std::sqrt(squared) / std::max(r, 1e-6 * R);
-      fx[m] += pull * x[m];
-      fy[m] += pull * y[m];
-      fz[m] += pull * z[m];
-    }
-}
-
 void Brownian::advance_slow() {
   Frame& f = state_.state;
   slow_.clear();
   for (std::size_t p = 0; p < place_.size(); ++p)
     if (place_[p] < 0) slow_.push_back(static_cast<std::uint32_t>(p));
   const std::size_t count = slow_.size();
-  path_.whole(slow_, static_cast<std::uint64_t>(statistics_.steps), noise_);
+  path_.whole(slow_, static_cast<std::uint64_t>(statistics_.steps), slow_noise_);
   for (std::size_t m = 0; m < count; ++m) {
     const std::size_t p = slow_[m];
     Vector3& x = f.position[p];
@@ -248,7 +253,8 @@ void Brownian::advance_slow() {
     const double kT = dry && !model_.dry.everything_acts ? 0 : model_.thermal_energy;
     x += ahead_[p].head<3>();
     ahead_[p].setZero();
-    const Vector3 dW = std::sqrt(2 * kT * drag) * Vector3(noise_[m], noise_[count + m], noise_[2 * count + m]);
+    const Vector3 dW =
+        std::sqrt(2 * kT * drag) * Vector3(slow_noise_[m], slow_noise_[count + m], slow_noise_[2 * count + m]);
     const Vector3 half = x + 0.5 * dW;
     const double r = half.norm();
     x += dW;
@@ -260,8 +266,8 @@ void Brownian::put_back() {
   Frame& f = state_.state;
   for (std::size_t m = 0; m < fast_.size(); ++m) {
     const std::uint32_t p = fast_[m];
-    for (int k = 0; k < 3; ++k) f.position[p][k] = motion_.position[k][m];
-    for (int k = 0; k < 6; ++k) ahead_[p][k] = block_.ahead[k][m];
+    f.position[p] = vector(motion_.position[m]);
+    ahead_[p] << vector(block_.ahead[0][m]), vector(block_.ahead[1][m]);
   }
   f.contacts.resize(bonds_.size());
   for (std::size_t b = 0; b < bonds_.size(); ++b) {

@@ -1,4 +1,4 @@
-// The integrator for particles that diffuse: no inertia, thermal noise, contacts at their full stiffness.
+// The integrator for particles that diffuse: no inertia, thermal noise, contacts in short steps.
 #pragma once
 
 #include "dryer/bond_block.hpp"
@@ -45,12 +45,14 @@ class Brownian : public Integrator {
   Brownian(const DryingModel& model, Agglomerate& state, std::uint64_t seed, const BrownianControl& control,
            const Scales& scales);
 
-  // Particles that take short steps, one array a quantity; index: place in the block.
+  // Particles that take short steps; index: place in the block. First of displacements (m), then of rotations (rad).
   struct Fast {
-    std::vector<double> drag[2];   // dt/zeta, dt/zeta_r
-    std::vector<double> noise[2];  // half of the noise of a short step: m, rad per unit normal number
-    std::vector<double> ahead[6];  // half of the noise and dt F/zeta, m and rad
+    std::vector<float> drag[2];   // dt/zeta, dt/zeta_r
+    std::vector<float> noise[2];  // half of the noise of a short step per unit normal number
+    std::vector<Row> ahead[2];    // half of the noise and dt F/zeta
     std::vector<double> radius;
+    std::vector<float> radius_in_single;
+    std::vector<float> pull;  // of the surface, over the distance from the centre, N/m
   };
   void classify();
   void gather();
@@ -60,8 +62,8 @@ class Brownian : public Integrator {
   void add_bond(const Contact& bond, std::int32_t i, std::int32_t j);
   void predict(int step);
   void touch();
+  void push();
   void surface();
-  void look_ahead();
   void advance_slow();
   void put_back();
   bool is_dry(std::int32_t particle) const;
@@ -83,7 +85,8 @@ class Brownian : public Integrator {
   std::vector<Pair> open_places_;
   MotionBlock motion_;
   BondBlock bonds_;
-  std::vector<double> noise_;
+  std::vector<float> noise_;
+  std::vector<double> slow_noise_;
 };
 
 }  // namespace crumble
