@@ -18,16 +18,24 @@ BondIncrement ImplicitStep::increment(const Frame& frame, const Contact& bond, c
           q.segment<6>(6 * bond.j)};
 }
 
+void ImplicitStep::foresee(const Frame& frame, const VectorXd& q) {
+  bonds_.clear();
+  for (const Contact& bond : frame.contacts)
+    bonds_.push_back(foreseen(bond, laws_(bond.i, bond.j), {radius_[bond.i], radius_[bond.j], length_, length_},
+                              frame.position[bond.j] - frame.position[bond.i], q.segment<6>(6 * bond.i),
+                              q.segment<6>(6 * bond.j)));
+}
+
 double ImplicitStep::bond_energy(const Frame& frame, const VectorXd& q) const {
   double energy = 0;
-  for (const Contact& bond : frame.contacts) energy += increment(frame, bond, q).energy();
+  for (const Contact& bond : bonds_) energy += increment(frame, bond, q).energy();
   return energy;
 }
 
 void ImplicitStep::set_gradient(const Frame& frame, const Problem& problem, const VectorXd& q) {
   gradient_ = problem.drag * dragged_ - problem.load;
   Vector6 g_i, g_j;
-  for (const Contact& bond : frame.contacts) {
+  for (const Contact& bond : bonds_) {
     g_i.setZero();
     g_j.setZero();
     increment(frame, bond, q).add_gradient(g_i, g_j);
@@ -39,7 +47,7 @@ void ImplicitStep::set_gradient(const Frame& frame, const Problem& problem, cons
 bool ImplicitStep::factorise(const Frame& frame, const Problem& problem, const VectorXd& q, Curvature curvature) {
   matrix_ = problem.drag * problem.resistance;
   Matrix6 K_ii, K_ij, K_jj;
-  for (const Contact& bond : frame.contacts) {
+  for (const Contact& bond : bonds_) {
     increment(frame, bond, q).stiffness(K_ii, K_ij, K_jj, curvature);
     matrix_.block<6, 6>(6 * bond.i, 6 * bond.i) += K_ii;
     matrix_.block<6, 6>(6 * bond.j, 6 * bond.j) += K_jj;
@@ -51,11 +59,12 @@ bool ImplicitStep::factorise(const Frame& frame, const Problem& problem, const V
 
 ImplicitStep::Outcome ImplicitStep::solve(const Frame& frame, const Problem& problem, double tolerance, VectorXd& q) {
   Outcome outcome;
+  foresee(frame, q);
   dragged_.noalias() = problem.resistance * q;
   double bonds = bond_energy(frame, q);
   // What cancels inside the energy of a bond is of the order of its work of separation.
   double noise = 0;
-  for (const Contact& bond : frame.contacts) {
+  for (const Contact& bond : bonds_) {
     const BondLaw& law = laws_(bond.i, bond.j);
     noise += 1e-14 * law.pull_off_force() * law.jkr.length;
   }

@@ -30,17 +30,20 @@ class ImplicitStep {
     bool converged = false;
     int iterations = 0, factorisations = 0;
   };
-  // Starts from q as it stands. tolerance: of the last correction, m.
+  // Starts from q as it stands: the nearer it is to where the step ends, the better are the frames of the contacts,
+  // which are those foreseen for it. tolerance: of the last correction, m.
   Outcome solve(const Frame& frame, const Problem& problem, double tolerance, Eigen::VectorXd& q);
 
  private:
   const std::vector<double>& radius_;
   double length_;
   const BondLaws& laws_;
+  std::vector<Contact> bonds_;  // foreseen for the end of the step
   Eigen::MatrixXd matrix_;
   Eigen::VectorXd gradient_, correction_, dragged_, dragged_correction_, trial_;
 
   BondIncrement increment(const Frame& frame, const Contact& bond, const Eigen::VectorXd& q) const;
+  void foresee(const Frame& frame, const Eigen::VectorXd& q);
   double bond_energy(const Frame& frame, const Eigen::VectorXd& q) const;
   void set_gradient(const Frame& frame, const Problem& problem, const Eigen::VectorXd& q);
   bool factorise(const Frame& frame, const Problem& problem, const Eigen::VectorXd& q, Curvature curvature);

@@ -27,7 +27,7 @@ void evaluate_loads(Contact& bond, const BondLaw& law) {
   bond.rolling_torque = -law.k_r * bond.rolling;
 }
 
-void advance(Contact& bond, const BondLaw& law, const BondMotion& motion) {
+void carry(Contact& bond, const BondMotion& motion) {
   const Vector3 normal_before = bond.normal;
   set_geometry(bond, motion.separation, motion.radius_i, motion.radius_j);
   const Vector3 mid = (normal_before + bond.normal).normalized();
@@ -41,14 +41,15 @@ void advance(Contact& bond, const BondLaw& law, const BondMotion& motion) {
   bond.sliding += relative.sliding - bond.normal.dot(relative.sliding) * bond.normal;
   bond.rolling += relative.rolling - bond.normal.dot(relative.rolling) * bond.normal;
   bond.twisting += relative.twisting;
+}
+
+void advance(Contact& bond, const BondLaw& law, const BondMotion& motion) {
+  carry(bond, motion);
   const double tension = law.normal(bond.gap).tension;
   bond.at_limit = static_cast<std::uint8_t>(yield(bond.sliding, law.k_s, law.sliding_limit(tension)) |
                                             yield(bond.twisting, law.k_t, law.M_t_crit) << 1 |
                                             yield(bond.rolling, law.k_r, law.M_r_crit) << 2);
-  bond.normal_force = tension;
-  bond.sliding_force = -law.k_s * bond.sliding;
-  bond.twisting_torque = -law.k_t * bond.twisting;
-  bond.rolling_torque = -law.k_r * bond.rolling;
+  evaluate_loads(bond, law);
 }
 
 Contact make_bond(const BondLaw& law, std::int32_t i, std::int32_t j, const Vector3& separation, double radius_i,

@@ -14,9 +14,12 @@ struct BondMotion {
   double radius_i, radius_j;       // m
 };
 
-// Moves the bond to its new geometry: gap and normal, histories carried along with the co-rotating frame, increased by
-// the relative motion (measured at the mid normal: second order in the step) and capped by the limits of Eqs. 12-21;
-// then the loads on j. Any motion of the pair as a rigid body changes no load.
+// Moves the bond to its new geometry: gap and normal, histories carried along with the co-rotating frame and increased
+// by the relative motion (measured at the mid normal: second order in the step). Limits and loads are left alone.
+void carry(Contact& bond, const BondMotion& motion);
+
+// The same, with the histories capped by the limits of Eqs. 12-21; then the loads on j. Any motion of the pair as a
+// rigid body changes no load.
 void advance(Contact& bond, const BondLaw& law, const BondMotion& motion);
 
 // Loads on j from gap and histories as they stand; sets normal_force, sliding_force, twisting_torque, rolling_torque.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/contact/kinematics.hpp"
 #include "common/contact/plastic_spring.hpp"
 
 namespace crumble {
@@ -13,19 +14,34 @@ BondIncrement::BondIncrement(const Contact& bond, const BondLaw& law, const Bond
                              const Vector6& q_i, const Vector6& q_j)
     : law_(law), bond_(bond), scale_i_(ends.scale_i), scale_j_(ends.scale_j) {
   const Vector3 dx = q_j.head<3>() - q_i.head<3>();
-  const Vector3 W_i = q_i.tail<3>() / scale_i_, W_j = q_j.tail<3>() / scale_j_, W = W_j - W_i;
+  const Vector3 W_i = q_i.tail<3>() / scale_i_, W_j = q_j.tail<3>() / scale_j_;
   const double l_i = lever_arm(bond, ends.radius_i, ends.radius_j), l_j = lever_arm(bond, ends.radius_j, ends.radius_i);
   const Vector3 now = separation + dx, &n0 = bond.normal;
   distance_ = now.norm();
   n_ = now / distance_;
   gap_ = distance_ - ends.radius_i - ends.radius_j;
-  sliding_ = bond.sliding + dx - n0.dot(dx) * n0 + n0.cross(l_i * W_i + l_j * W_j);
-  const double twist = n0.dot(W);
-  rolling_ = bond.rolling + W - twist * n0;
-  twisting_ = bond.twisting + twist;
+  const RelativeMotion seen = relative_motion(n0, dx, W_i, W_j, l_i, l_j);
+  sliding_ = bond.sliding + seen.sliding;
+  rolling_ = bond.rolling + seen.rolling;
+  twisting_ = bond.twisting + seen.twisting;
   sliding_limit_ = law.sliding_limit(bond.normal_force);
   c_i_ = l_i / scale_i_;
   c_j_ = l_j / scale_j_;
+}
+
+Contact foreseen(const Contact& bond, const BondLaw& law, const BondEnds& ends, const Vector3& separation,
+                 const Vector6& q_i, const Vector6& q_j) {
+  const Vector3 dx = q_j.head<3>() - q_i.head<3>();
+  const Vector3 W_i = q_i.tail<3>() / ends.scale_i, W_j = q_j.tail<3>() / ends.scale_j;
+  Contact end = bond;
+  carry(end, {separation + dx, dx, W_i, W_j, ends.radius_i, ends.radius_j});
+  const RelativeMotion seen = relative_motion(end.normal, dx, W_i, W_j, lever_arm(end, ends.radius_i, ends.radius_j),
+                                              lever_arm(end, ends.radius_j, ends.radius_i));
+  end.sliding -= seen.sliding;
+  end.rolling -= seen.rolling;
+  end.twisting -= seen.twisting;
+  end.normal_force = law.normal(std::min(end.gap, law.lost_gap())).tension;
+  return end;
 }
 
 double BondIncrement::energy() const {

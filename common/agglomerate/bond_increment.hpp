@@ -15,8 +15,9 @@ struct BondEnds {
   double scale_i, scale_j;    // m
 };
 
-// A bond as it would be after the increments, its springs not yet yielded. Tangential motion is measured at the normal
-// before the increments: first order in the step. `advance` of bond.hpp then moves the bond exactly.
+// A bond as it would be after the increments, its springs not yet yielded. Tangential motion is measured at the bond's
+// own normal, the limit of sliding at its own tension: those before the increments, which is of first order in the
+// step, or those of foreseen(). `advance` of bond.hpp then moves the bond exactly.
 class BondIncrement {
  public:
   BondIncrement(const Contact& bond, const BondLaw& law, const BondEnds& ends, const Vector3& separation,
@@ -42,5 +43,11 @@ class BondIncrement {
   double twisting_, sliding_limit_;
   double c_i_, c_j_, scale_i_, scale_j_;  // lever arms over scales
 };
+
+// The bond as it will stand if its spheres move by these increments. A BondIncrement of it has the normal and tension
+// of the end of the step and, at these increments, the springs that carry() of bond.hpp finds: for increments near by
+// it is of second order. Beyond its reach the tension is that of pull-off.
+Contact foreseen(const Contact& bond, const BondLaw& law, const BondEnds& ends, const Vector3& separation,
+                 const Vector6& q_i, const Vector6& q_j);
 
 }  // namespace crumble
