@@ -11,6 +11,8 @@ import pathlib
 import statistics
 import sys
 
+from matplotlib.ticker import NullLocator
+
 from figure import BLACK, BLUE, GREEN, ORANGE, PURPLE, pyplot, save
 from table import print_markdown, write_records
 
@@ -100,7 +102,8 @@ def panel(axes, scan, x, name, label, colour):
     axes.plot(places, [row[name] for row in scan], "o-", color=colour, markersize=3)
     axes.fill_between(places, [row[name + "_lowest"] for row in scan], [row[name + "_highest"] for row in scan], color=colour,
                       alpha=0.2, linewidth=0)
-    axes.set(ylabel=label, xscale="log", ylim=(0, None))
+    top = max(row[name + "_highest"] for row in scan if not math.isnan(row[name]))
+    axes.set(ylabel=label, xscale="log", ylim=(0, 1.1 * top))
 
 
 def draw(table, out):
@@ -114,13 +117,18 @@ def draw(table, out):
             shared = [r for r in scans[0][2] if r["peclet"] == fixed]
             scans[k] = (scans[k][0], f"{scans[k][1]} (Pe = {fixed:g})", sorted(scans[k][2] + shared, key=lambda r: r[scans[k][0]]))
     scans = [scan for scan in scans if scan[2]]
-    figure, panels = pyplot.subplots(len(QUANTITIES), len(scans), figsize=(3 * len(scans), 9), squeeze=False, layout="constrained")
+    figure, panels = pyplot.subplots(len(QUANTITIES), len(scans), figsize=(3 * len(scans), 9), squeeze=False, sharex="col",
+                                     layout="constrained")
     for column, (x, title, scan) in enumerate(scans):
         for line, ((name, label), colour) in enumerate(zip(QUANTITIES, (BLACK, BLUE, GREEN, PURPLE, ORANGE))):
             panel(panels[line][column], scan, x, name, label, colour)
-        panels[-1][column].set(xlabel=title)
-        right = panels[-1][column].secondary_yaxis("right", functions=(lambda s: s / WATER, lambda g: g * WATER))
-        right.set_ylabel("shear rate in water, 1/s")
+        lowest = panels[-1][column]
+        lowest.set(xlabel=title)
+        lowest.xaxis.set_minor_locator(NullLocator())
+        if len(scan) < 6:  # a short scan names its values
+            lowest.set_xticks([row[x] for row in scan], [f"{row[x]:.2g}" if x == "solids" else str(row[x]) for row in scan])
+    right = panels[-1][-1].secondary_yaxis("right", functions=(lambda s: 1e-6 * s / WATER, lambda g: 1e6 * g * WATER))
+    right.set_ylabel("shear rate in water, 1e6/s")
     save(figure, out)
 
 
