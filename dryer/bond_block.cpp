@@ -114,6 +114,7 @@ void BondBlock::store(std::size_t b, Contact& contact) const {
     contact.sliding[k] = sliding_[k][b];
     contact.rolling[k] = rolling_[k][b];
   }
+  contact.normal.normalize();  // of single precision here; files hold unit vectors to 1e-9
   contact.twisting = twisting_[b];
   contact.gap = gap_[b];
   contact.born = born_[b];

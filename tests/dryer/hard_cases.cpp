@@ -151,6 +151,7 @@ TEST_P(Hard, case_dries_to_the_end) {
   EXPECT_EQ(state.state.time, end);
   EXPECT_TRUE(finite(state.state));
   EXPECT_LT(run->statistics().largest_overlap, given.deepest);
+  for (const Contact& c : state.state.contacts) EXPECT_NEAR(c.normal.norm(), 1, 1e-9);  // what a valid file needs
   // The last of the liquid pulls inwards only: nothing is thrown out.
   for (std::size_t p = 0; p < state.particles.size(); ++p)
     EXPECT_LT(state.state.position[p].norm(), given.model.droplet.initial_radius + 5 * a) << p;
