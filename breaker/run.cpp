@@ -45,8 +45,8 @@ BreakupRun::BreakupRun(const BreakerScene& scene, const Agglomerate& start, doub
       coarsening_(coarsening),
       whole_(start.state),
       severed_at_(start.particles.size(), -1) {
-  const auto n = static_cast<std::int64_t>(particles_.size());
-  smallest_ = scene.smallest_fragment > 0 ? scene.smallest_fragment : std::max<std::int64_t>(1, (n + 19) / 20);
+  broken_when_lost_ =
+      scene.lost_particles ? static_cast<std::size_t>(*scene.lost_particles) : (particles_.size() + 19) / 20;
   Piece piece;
   piece.member = all(particles_.size());
   piece.integrator = integrate(piece, start.state);
@@ -219,8 +219,6 @@ void BreakupRun::divide(std::size_t number) {
   add(retired_, pieces_[number].integrator->statistics());
   const Frame lab = pieces_[number].integrator->laboratory();
   const double now = frame.time, stress = protocol_.stress_before(now);
-  double severed = stress;
-  bool breaks = false;
   std::vector<Piece> parts(1 + lost.size());
   std::vector<std::vector<std::int32_t>> rows(parts.size());
   for (std::size_t row = 0; row < label.size(); ++row) {
@@ -228,29 +226,38 @@ void BreakupRun::divide(std::size_t number) {
     const std::size_t part = place == lost.end() ? 0 : 1 + static_cast<std::size_t>(place - lost.begin());
     rows[part].push_back(static_cast<std::int32_t>(row));
     parts[part].member.push_back(member[row]);
-    if (part > 0 && sizes[label[row]] >= smallest_) {
-      breaks = true;
-      severed = std::min(severed, severed_at_[member[row]]);
-    }
   }
   for (std::size_t part = 0; part < parts.size(); ++part) {
     parts[part].integrator = integrate(parts[part], part_of(lab, rows[part]));
     parts[part].last_rupture = now;
   }
   pieces_[number] = std::move(parts.front());
+  const bool breaks = !broken_ && particles_.size() - pieces_[number].member.size() >= broken_when_lost_;
   // Before breakup small fragments stay where they were lost; afterwards whatever can break goes on.
   for (std::size_t part = 1; part < parts.size(); ++part)
     if ((broken_ || breaks) && parts[part].member.size() > 1) pieces_.push_back(std::move(parts[part]));
   const auto all_sizes = fragment_sizes(fragments(particles_.size(), whole_.contacts));
   events_.push_back({now, stress, EventKind::fragment_lost, -1, -1, all_sizes});
   breakup_.fragments = all_sizes;
-  if (breaks && !broken_) end_with_breakup(severed);
+  if (breaks) end_with_breakup();
 }
 
-void BreakupRun::end_with_breakup(double severed) {
+// The stress at which as many particles as make a breakup had left what still holds together.
+double BreakupRun::critical_stress() const {
+  std::vector<bool> lost(particles_.size(), true);
+  for (const std::int32_t p : pieces_.front().member) lost[p] = false;
+  std::vector<double> severed;
+  for (std::size_t p = 0; p < lost.size(); ++p)
+    if (lost[p]) severed.push_back(severed_at_[p]);
+  const auto decisive = severed.begin() + static_cast<std::ptrdiff_t>(broken_when_lost_ - 1);
+  std::nth_element(severed.begin(), decisive, severed.end());
+  return *decisive;
+}
+
+void BreakupRun::end_with_breakup() {
   broken_ = true;
-  breakup_.severed = severed;
-  look_back(severed);
+  breakup_.severed = critical_stress();
+  look_back(*breakup_.severed);
   breakup_.lost = stress();
   if (!scene_.until_stable) {
     finished_ = true;

@@ -23,8 +23,8 @@ struct Look {
 // What the report says about the breakup itself. Stresses in Pa; nothing where it has not happened.
 struct Breakup {
   std::optional<double> first_limit, first_rupture;  // a contact at any limit; a contact lost
-  std::optional<double> severed;  // the last load path to the fragment that was lost gave way: the critical stress
-  std::optional<double> lost;     // that fragment was beyond reach
+  std::optional<double> severed;  // the last load path to what was lost gave way: the critical stress
+  std::optional<double> lost;     // it was beyond reach
   std::int64_t contacts_initial = 0;
   Look initial, before;                 // at the start of the flow, and whole for the last time
   std::vector<std::int64_t> fragments;  // sizes at the end, descending
@@ -79,7 +79,7 @@ class BreakupRun {
   const Particles& particles_;
   Protocol protocol_;
   double coarsening_;
-  std::int64_t smallest_;
+  std::size_t broken_when_lost_;  // particles
   std::vector<Piece> pieces_;
   std::size_t turn_ = 0;            // of the piece that moves next
   double window_end_ = 0;           // s; all pieces reach it before any goes beyond (only after breakup)
@@ -100,7 +100,8 @@ class BreakupRun {
   void collect_events(const Piece& piece);
   void note_fragments(const Piece& piece);
   void divide(std::size_t number);
-  void end_with_breakup(double severed);
+  double critical_stress() const;
+  void end_with_breakup();
   void settle();
   void next_turn();
   void observe();

@@ -84,9 +84,9 @@ const ParameterTable& breaker_parameters() {
             .above(0.01)
             .at_most(10)
             .by_default(1),
-        P::integer("smallest_fragment",
-                   "Particles of a fragment whose loss is the breakup; smaller ones are lost and the run goes on. "
-                   "Without it a twentieth of all, rounded up")
+        P::integer("lost_particles",
+                   "How many particles must be lost, in one fragment or crumb by crumb, for it to be broken; without "
+                   "it a twentieth of all, rounded up")
             .at_least(1)
             .optional(),
         P::flag("until_stable", "After breakup hold the stress until no fragment breaks any more").by_default(false),
@@ -169,7 +169,7 @@ BreakerScene breaker_scene(const Scene& scene) {
   }
   s.largest_stress = scene.real("protocol.largest_stress");
   s.reach = scene.real("breakup.reach");
-  if (scene.is_set("breakup.smallest_fragment")) s.smallest_fragment = scene.integer("breakup.smallest_fragment");
+  if (scene.is_set("breakup.lost_particles")) s.lost_particles = scene.integer("breakup.lost_particles");
   s.until_stable = scene.flag("breakup.until_stable");
   s.stable_strain = scene.real("breakup.stable_strain");
   s.brittle_below = scene.real("breakup.brittle_below");

@@ -22,8 +22,8 @@ struct BreakerScene {
   double tolerance = 0.01;
   double step = 0;  // explicit only, s; 0: half the stability limit
   bool allow_unstable = false;
-  double reach = 1;                    // gap beyond which a fragment is lost, in a
-  std::int64_t smallest_fragment = 0;  // particles; 0: a twentieth of all, at least one
+  double reach = 1;                            // gap beyond which a fragment is lost, in a
+  std::optional<std::int64_t> lost_particles;  // whose loss is the breakup; else a twentieth of all, rounded up
   bool until_stable = false;
   double stable_strain = 20;    // without rupture, at constant stress
   double largest_stress = 1e5;  // Pa

@@ -140,6 +140,20 @@ class Program(unittest.TestCase):
             sizes = sorted(numpy.bincount(labels).tolist(), reverse=True)
             self.assertEqual(sizes, found["fragments"])
 
+    def test_particles_lost_in_several_pieces_add_up(self):
+        """A chain of 8 breaks in the middle, and the half that is left when it alone would: 4 + 2 particles are lost."""
+        def chain(n):
+            return self.agglomerate([[200 * k, 0, 0] for k in range(n)])
+        fast = ("hydrodynamics.method=fts", "error.estimate=false")
+        once, _, _ = self.breakup(chain(8), *fast)
+        twice, _, _ = self.breakup(chain(8), "breakup.lost_particles=6", *fast)
+        half, _, _ = self.breakup(chain(4), *fast)
+        self.assertEqual(once["results"]["fragments"], [4, 4])
+        self.assertEqual(twice["results"]["fragments"], [4, 2, 2])
+        stress = [run["results"]["critical_stress_pa"] for run in (once, twice, half)]
+        self.assertLess(stress[0], 0.7 * stress[1])
+        self.assertAlmostEqual(stress[1] / stress[2], 1, delta=5e-3)
+
     def test_largest_fragment_goes_on(self):
         _, _, out = self.breakup(self.agglomerate(coil(8)), "error.estimate=false")
         text = pathlib.Path(SCENE).read_text().replace("radius = 100e-9", "")
