@@ -26,11 +26,22 @@ void BreakupCheckpoint::save(const BreakupRun& run, const Progression& progressi
   }
   out.reals["progression"] = {progression.next_sample, progression.next_frame};
   out.integers["last_step"] = {progression.last_step};
+  out.integers["halvings"] = {progression.halvings};
   if (progression.companion) out.reals["companion"] = {*progression.companion};
   store(out);
 }
 
-void BreakupCheckpoint::resume(BreakupRun& run, Progression& progression) const {
+Progression BreakupCheckpoint::progression() const {
+  Progression p;
+  p.next_sample = stored().real("progression").at(0);
+  p.next_frame = stored().real("progression").at(1);
+  p.last_step = stored().integer("last_step").at(0);
+  p.halvings = stored().integer("halvings").at(0);
+  if (stored().reals.contains("companion")) p.companion = stored().real("companion").at(0);
+  return p;
+}
+
+void BreakupCheckpoint::resume(BreakupRun& run) const {
   BreakupRun::Memory m;
   m.numbers = stored().real("run");
   m.counts = stored().integer("run_counts");
@@ -44,10 +55,6 @@ void BreakupCheckpoint::resume(BreakupRun& run, Progression& progression) const 
         {stored().real(piece_name("integrator", k)), stored().integer(piece_name("integrator_counts", k))});
   }
   run.recall(m);
-  progression.next_sample = stored().real("progression").at(0);
-  progression.next_frame = stored().real("progression").at(1);
-  progression.last_step = stored().integer("last_step").at(0);
-  if (stored().reals.contains("companion")) progression.companion = stored().real("companion").at(0);
 }
 
 }  // namespace crumble

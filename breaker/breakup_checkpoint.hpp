@@ -13,14 +13,16 @@ namespace crumble {
 struct Progression {
   double next_sample = 0, next_frame = 0;  // Pa
   std::int64_t last_step = -1;             // of the last frame or sample in the file
-  std::optional<double> companion;         // critical stress of the companion, Pa; -1: it did not break
+  std::optional<double> companion;  // critical stress of the same run with coarser control, Pa; -1: it did not break
+  std::int64_t halvings = 0;        // of the tolerance, since the error was too large
 };
 
 class BreakupCheckpoint : public OutputCheckpoint {
  public:
   using OutputCheckpoint::OutputCheckpoint;
 
-  void resume(BreakupRun& run, Progression& progression) const;
+  Progression progression() const;
+  void resume(BreakupRun& run) const;
   void save(const BreakupRun& run, const Progression& progression) const;
 };
 

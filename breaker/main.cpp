@@ -83,6 +83,53 @@ void run_to_the_end(BreakupRun& run, const BreakerScene& scene, AgglomerateWrite
   }
 }
 
+struct Job {
+  const CommandLine& line;
+  const Scene& text;
+  const BreakerScene& scene;
+  const Start& start;
+  const Provenance& provenance;
+  BreakupCheckpoint& checkpoint;
+  ProgressPrinter& progress;
+  Report& report;
+};
+
+bool is_uncertain(const BreakupRun& run, const BreakerScene& scene, const Progression& p) {
+  const auto error = relative_error(run.breakup(), p.companion);
+  return error && *error > scene.accuracy && !scene.is_explicit && p.halvings < scene.halvings;
+}
+
+// One run with its output. False if its error is too large: then p says how to begin the next one.
+bool break_once(const Job& job, Progression& p, bool goes_on, bool beside) {
+  const BreakerScene& scene = job.scene;
+  BreakupRun run(scene, job.start.agglomerate, std::ldexp(1, -static_cast<int>(p.halvings)));
+  if (goes_on) job.checkpoint.resume(run);
+  std::optional<Companion> companion;
+  if (scene.estimate_error && !p.companion) companion.emplace(scene, job.start.agglomerate, beside);
+  AgglomerateWriter writer =
+      goes_on ? AgglomerateWriter::resume(job.line.output, p.last_step)
+              : AgglomerateWriter(job.line.output, job.start.agglomerate.particles,
+                                  {"breaker", job.provenance, job.text.given(), job.text.resolved(), "none"});
+  run_to_the_end(run, scene, writer, companion ? &*companion : nullptr, job.checkpoint, p, job.progress);
+  if (is_uncertain(run, scene, p)) {
+    job.progress.say(fmt::format("{:.1f} Pa, with doubled tolerance {:.1f} Pa: once more with half of it",
+                                 *run.breakup().severed, *p.companion));
+    job.checkpoint.remove();
+    p = {.companion = run.breakup().severed, .halvings = p.halvings + 1};
+    return false;
+  }
+  if (run.statistics().steps > p.last_step) {
+    put_sample(writer, run, scene, p);
+    put_frame(writer, run, scene, p);
+  }
+  write_rest(writer, run, scene, job.start);
+  writer.finish(run.breakup().severed ? "broken" : "relaxed");
+  job.checkpoint.remove();
+  fill_report(job.report, scene, job.start, run, p.companion);
+  fmt::print("{}", result_text(run, scene, p.companion));
+  return true;
+}
+
 int break_up(int argc, const char* const* argv) {
   const CommandLine line = parse_command_line(description(), argc, argv);
   if (line.answer) {
@@ -108,31 +155,13 @@ int break_up(int argc, const char* const* argv) {
   BreakupCheckpoint checkpoint(line.output,
                                {"breaker", provenance.version, text.resolved() + "\n# of " + provenance.parent_sha256});
   if (line.restart) checkpoint.require();
-  BreakupRun run(scene, start.agglomerate, 1);
-  Progression p;
-  if (checkpoint.found()) {
-    progress.say("resuming from " + checkpoint.path());
-    checkpoint.resume(run, p);
-  }
-  std::optional<Companion> companion;
-  if (scene.estimate_error && !p.companion) companion.emplace(scene, start.agglomerate, threads > 1);
-  AgglomerateWriter writer = checkpoint.found()
-                                 ? AgglomerateWriter::resume(line.output, p.last_step)
-                                 : AgglomerateWriter(line.output, start.agglomerate.particles,
-                                                     {"breaker", provenance, text.given(), text.resolved(), "none"});
-  run_to_the_end(run, scene, writer, companion ? &*companion : nullptr, checkpoint, p, progress);
-
-  if (run.statistics().steps > p.last_step) {
-    put_sample(writer, run, scene, p);
-    put_frame(writer, run, scene, p);
-  }
-  write_rest(writer, run, scene, start);
-  writer.finish(run.breakup().severed ? "broken" : "relaxed");
-  checkpoint.remove();
+  if (checkpoint.found()) progress.say("resuming from " + checkpoint.path());
+  Progression p = checkpoint.found() ? checkpoint.progression() : Progression{};
   report.add_earlier(checkpoint.used());
-  fill_report(report, scene, start, run, p.companion);
+  const Job job{line, text, scene, start, provenance, checkpoint, progress, report};
+  bool goes_on = checkpoint.found();
+  while (!break_once(job, p, goes_on, threads > 1)) goes_on = false;
   if (!line.report.empty()) report.write(line.report);
-  fmt::print("{}", result_text(run, scene, p.companion));
   return 0;
 }
 

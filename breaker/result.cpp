@@ -136,6 +136,7 @@ void fill_report(Report& report, const BreakerScene& scene, const Start& start, 
   report.result("breakage", breakage(b, scene));
   report.result("strain", run.protocol().strain(run.time()) / scene.model.viscosity);
   report.result("hydrodynamics", std::string(method_name(scene.model.hydro.rung)));
+  report.result("tolerance", scene.is_explicit ? Report::Value(nullptr) : Report::Value(run.tolerance()));
   report.result("scaled_by", start.scale);
   report.result("closing.residual_rms_over_f_po", start.rms_use);
   report.result("closing.residual_max_over_f_po", start.max_use);

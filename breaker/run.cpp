@@ -68,7 +68,7 @@ std::unique_ptr<Integrator> BreakupRun::integrate(const Piece& piece, Frame fram
       throw InputError(std::string("integrator.step: ") + error.what());
     }
   }
-  return std::make_unique<Implicit>(scene_.model, protocol_, radius, std::move(frame), scene_.tolerance * coarsening_);
+  return std::make_unique<Implicit>(scene_.model, protocol_, radius, std::move(frame), tolerance());
 }
 
 double BreakupRun::time() const { return pieces_.empty() ? whole_.time : pieces_[turn_].integrator->frame().time; }

@@ -45,6 +45,7 @@ class BreakupRun {
   // Why it ended, if not by breakup.
   const std::string& ending() const { return ending_; }
 
+  double tolerance() const { return scene_.tolerance * coarsening_; }  // of the implicit integrator
   double time() const;
   double stress() const;     // Pa
   double fraction() const;   // done, a guess: largest use of a contact so far

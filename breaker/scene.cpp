@@ -112,7 +112,13 @@ const ParameterTable& breaker_parameters() {
       {"error",
        "How the run judges itself.",
        {P::flag("estimate", "Also run with doubled tolerance (or, explicit, half the step) and report the difference")
-            .by_default(true)}},
+            .by_default(true),
+        P::real("accuracy", "",
+                "implicit: wanted relative error of the critical stress; while the difference is larger the tolerance "
+                "is halved and the breakup run again")
+            .above(0)
+            .by_default(0.01),
+        P::integer("halvings", "How often at most").at_least(0).at_most(10).by_default(2)}},
       {"output",
        "What the file holds.",
        {P::real("sample_interval", "Pa", "Between two samples of the dense series").above(0).by_default(5),
@@ -184,6 +190,8 @@ BreakerScene breaker_scene(const Scene& scene) {
   }
   s.allow_unstable = scene.flag("integrator.allow_unstable");
   s.estimate_error = scene.flag("error.estimate");
+  s.accuracy = scene.real("error.accuracy");
+  s.halvings = scene.integer("error.halvings");
   s.sample_interval = scene.real("output.sample_interval");
   s.frame_interval = scene.real("output.frame_interval");
   return s;

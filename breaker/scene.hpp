@@ -29,6 +29,8 @@ struct BreakerScene {
   double largest_stress = 1e5;  // Pa
   double brittle_below = 0.1;   // relative change of the largest semi-axis
   bool estimate_error = true;
+  double accuracy = 0.01;     // of the critical stress, relative; while its error is larger the tolerance is halved,
+  std::int64_t halvings = 2;  // at most so often
   double sample_interval = 5, frame_interval = 50;  // Pa
 };
 

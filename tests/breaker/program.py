@@ -105,6 +105,20 @@ class Program(unittest.TestCase):
         self.goes_on(self.agglomerate(coil(8)), "error.estimate=false", "integrator.method=explicit",
                      "protocol.stages=ramp 1e7")
 
+    def test_interrupted_run_of_a_halved_tolerance_goes_on_to_the_same_bits(self):
+        self.goes_on(self.agglomerate(coil(16)), "integrator.tolerance=0.016", "error.accuracy=1e-12", "error.halvings=3",
+                     "protocol.stages=rest 0.1; ramp 5000")
+
+    def test_tolerance_is_halved_until_the_error_is_as_wanted(self):
+        start = self.agglomerate(coil(16))
+        wanted, _, _ = self.breakup(start, "integrator.tolerance=0.08", "error.accuracy=1e-12")
+        given, _, _ = self.breakup(start, "integrator.tolerance=0.02", "error.accuracy=0.5")
+        self.assertEqual(wanted["results"]["tolerance"], 0.02)
+        self.assertEqual(wanted["results"], given["results"])
+        self.assertEqual(wanted["errors"], given["errors"])
+        loose, _, _ = self.breakup(start, "integrator.tolerance=0.08", "error.accuracy=0.5")
+        self.assertEqual(loose["results"]["tolerance"], 0.08)
+
     def goes_on(self, start, *settings):
         whole, cut = self.folder / "whole.h5", self.folder / "cut.h5"
         duration = seconds([BREAKER, *self.command(start, *settings, output=whole.name)])
