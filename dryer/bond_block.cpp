@@ -7,6 +7,9 @@ namespace crumble {
 
 namespace {
 
+// From so many bonds on, several threads are worth it.
+constexpr std::size_t many = 2000;
+
 // Displacement at which a spring yields; 1e30 without limit.
 double farthest(double limit, double stiffness) { return stiffness == 0 ? 0 : std::min(limit / stiffness, 1e30); }
 
@@ -23,7 +26,7 @@ void BondBlock::each_array(Visit visit) {
   visit(born_);
   for (auto* triple : {&apart_, &normal_, &sliding_, &rolling_})
     for (auto& array : *triple) visit(array);
-  for (auto* scalar : {&twisting_, &gap_, &lost_gap_, &holds_}) visit(*scalar);
+  for (auto* scalar : {&twisting_, &gap_, &lost_gap_, &holds_, &slope_}) visit(*scalar);
   for (auto& array : constants_) visit(array);
 }
 
@@ -73,11 +76,13 @@ void BondBlock::add(const Contact& bond, std::int32_t i, std::int32_t j, const B
   put(gap_, bond.gap);
   put(lost_gap_, lost_gap);
   put(holds_, 1);
+  put(slope_, law.jkr.state(bond.gap).stiffness);
   const std::array<double, constant_count> value = {a_i,
                                                     a_j,
                                                     a_i + a_j,
                                                     1 / (a_i + a_j),
                                                     1 / law.jkr.length,
+                                                    1 / pair_radius(a_i, a_j),
                                                     law.jkr.pull_off_force,
                                                     law.k_s,
                                                     law.k_t,
@@ -162,7 +167,7 @@ inline __attribute__((always_inline)) Lane jkr_root(const Lane& x) {
 }  // namespace
 
 // The bonds of one register, in one go from positions to loads: what is needed only in between stays in registers.
-void BondBlock::move(std::size_t b, const MotionBlock& motion, Lane& holding) {
+void BondBlock::move(std::size_t b, const MotionBlock& motion, Extremes& extremes) {
   const std::int32_t *i = &i_[b], *j = &j_[b];
   const auto constant = [&](Constant which) __attribute__((always_inline)) {
     return uniform_ ? Lane(Lane::Constant(constants_[which][0])) : read(&constants_[which][b]);
@@ -216,18 +221,64 @@ void BondBlock::move(std::size_t b, const MotionBlock& motion, Lane& holding) {
   to_rows(on_i, loads.torque.data());
   to_rows(on_j, loads.torque.data() + lanes);
   write(&holds_[b], holds);
-  holding = holding.min(holds);
-  deepest_ = deepest_.max(-gap);
+  extremes.holding = extremes.holding.min(holds);
+  extremes.deepest = extremes.deepest.max(-gap * constant(inverse_radius));
 }
 
 void BondBlock::advance(const MotionBlock& motion) {
   loads_.resize(padded(count_) / lanes);
-  Lane holding = Lane::Ones();
-  for (std::size_t b = 0; b < count_; b += lanes) move(b, motion, holding);
+  Extremes all;
+  if (count_ < many) {
+    for (std::size_t b = 0; b < count_; b += lanes) move(b, motion, all);
+  } else {
+#pragma omp parallel
+    {
+      Extremes mine;
+#pragma omp for schedule(static) nowait
+      for (std::size_t b = 0; b < count_; b += lanes) move(b, motion, mine);
+#pragma omp critical
+      {
+        all.holding = all.holding.min(mine.holding);
+        all.deepest = all.deepest.max(mine.deepest);
+      }
+    }
+  }
+  deepest_ = deepest_.max(all.deepest);
   lost_.clear();
-  if (holding.minCoeff() > 0) return;
+  if (all.holding.minCoeff() > 0) return;
   for (std::size_t b = 0; b < count_; ++b)
     if (holds_[b] == 0) lost_.push_back(static_cast<std::int32_t>(b));
+}
+
+// dN/dh = 9 F_po/L c^2 (2 c^3 - 1)/(6 c^3 - 1), c of jkr_root.
+Lane BondBlock::slope(std::size_t b) const {
+  const auto constant = [&](Constant which) {
+    return uniform_ ? Lane(Lane::Constant(constants_[which][0])) : read(&constants_[which][b]);
+  };
+  const Lane scale = constant(inverse_length), root = jkr_root(read(&gap_[b]).min(read(&lost_gap_[b])) * scale),
+             cubed = root * root * root;
+  return (9 * constant(pull_off) * scale * root * root * (2 * cubed - 1) / (6 * cubed - 1)).max(0);
+}
+
+void BondBlock::find_stiffness() {
+#pragma omp parallel for schedule(static) if (count_ >= many)
+  for (std::size_t b = 0; b < count_; b += lanes) write(&slope_[b], slope(b));
+}
+
+BondBlock::Stiffness BondBlock::stiffness_on(std::size_t place) const {
+  Stiffness sum;
+  const std::int32_t* links = links_.data() + place * capacity_;
+  for (std::int32_t k = 0; k < degree_[place]; ++k) {
+    const auto end = static_cast<std::size_t>(links[k]);
+    const std::size_t b = end / (2 * lanes) * lanes + row_of(end % lanes), c = uniform_ ? 0 : b;
+    const Eigen::Vector3f n(normal_[0][b], normal_[1][b], normal_[2][b]);
+    const Eigen::Matrix3f nn = n * n.transpose();
+    const Eigen::Matrix3f across = 3.5f * constants_[k_s][c] * (Eigen::Matrix3f::Identity() - nn);
+    sum.across += across;
+    sum.displacing += across + 2 * slope_[b] * nn;
+    sum.turning += 2 * std::max(constants_[k_r][c], constants_[k_t][c]);
+  }
+  return sum;
 }
 
 }  // namespace crumble

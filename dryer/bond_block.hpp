@@ -43,8 +43,18 @@ class BondBlock {
     Quad force, torque;
   };
   Load load_on(std::size_t place) const;
+
+  // For stability: how stiff the bonds of a place are, sums over them of
+  //   2 k_n nn + 3.5 k_s (I - nn), 3.5 k_s (I - nn) and 2 max(k_r, k_t),   N/m, N/m and N m.
+  // k_n, the slope of the normal force, is that of the last find_stiffness() or add().
+  struct Stiffness {
+    Eigen::Matrix3f displacing = Eigen::Matrix3f::Zero(), across = Eigen::Matrix3f::Zero();
+    float turning = 0;
+  };
+  void find_stiffness();
+  Stiffness stiffness_on(std::size_t place) const;
   const std::vector<std::int32_t>& lost() const { return lost_; }
-  double deepest_overlap() const { return deepest_.maxCoeff(); }  // of all steps since clear(), m
+  double deepest_overlap() const { return deepest_.maxCoeff(); }  // of all steps since clear(), in the pair's radius
 
   std::int32_t first(std::size_t bond) const { return i_[bond]; }
   std::int32_t second(std::size_t bond) const { return j_[bond]; }
@@ -60,7 +70,11 @@ class BondBlock {
     return static_cast<std::int32_t>(bond / lanes * (2 * lanes) + side * lanes + row_of(bond % lanes));
   }
   using Triple = std::array<std::vector<float>, 3>;  // a vector a bond, one array a component
-  void move(std::size_t first, const MotionBlock& motion, Lane& holding);
+  struct Extremes {
+    Lane holding = Lane::Ones(), deepest = Lane::Zero();
+  };
+  void move(std::size_t first, const MotionBlock& motion, Extremes& extremes);
+  Lane slope(std::size_t first) const;
   void link(std::int32_t place, std::int32_t end);
   void unlink(std::int32_t place, std::int32_t end);
 
@@ -71,6 +85,7 @@ class BondBlock {
     sum_of_radii,
     inverse_reach,
     inverse_length,
+    inverse_radius,
     pull_off,
     k_s,
     k_t,
@@ -90,6 +105,7 @@ class BondBlock {
   bool uniform_ = true;  // all bonds have the same constants
   std::vector<Loads> loads_;
   std::vector<float> holds_;  // 1; 0 if the bond is beyond its reach
+  std::vector<float> slope_;  // of the normal force, N/m
   Lane deepest_ = Lane::Zero();
 
   // The ends of bonds at each place: capacity_ entries a place, of which degree_ are in use.
@@ -103,12 +119,13 @@ class BondBlock {
 
 // In the order of its links: the same bits, however many threads ask.
 inline BondBlock::Load BondBlock::load_on(std::size_t place) const {
+  static constexpr float sign[2] = {-1, 1};  // looked up, since a branch would be guessed wrong half of the time
   Load sum{};
   const std::int32_t* links = links_.data() + place * capacity_;
   for (std::int32_t k = 0; k < degree_[place]; ++k) {
     const auto end = static_cast<std::size_t>(links[k]), side = end / lanes % 2;
     const Loads& loads = loads_[end / (2 * lanes)];
-    sum.force += all(side == 0 ? -1.0f : 1.0f) * load(loads.force[end % lanes]);
+    sum.force += all(sign[side]) * load(loads.force[end % lanes]);
     sum.torque += load(loads.torque[end % (2 * lanes)]);
   }
   return sum;

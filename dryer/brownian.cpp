@@ -281,7 +281,7 @@ void Brownian::put_back() {
   std::sort(f.contacts.begin(), f.contacts.end(), [](const Contact& a, const Contact& b) {
     return Pair{a.i, a.j} < Pair{b.i, b.j};
   });
-  statistics_.largest_overlap = std::max(statistics_.largest_overlap, bonds_.deepest_overlap() / smallest_radius());
+  statistics_.largest_overlap = std::max(statistics_.largest_overlap, bonds_.deepest_overlap());
 }
 
 void Brownian::check_finite() const {

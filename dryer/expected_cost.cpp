@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/contact/bond_law.hpp"
+#include "dryer/drag.hpp"
 #include "dryer/run.hpp"
 
 namespace crumble {
@@ -52,6 +54,17 @@ ExpectedCost brownian_cost(const DryingScene& s) {
   return cost;
 }
 
+// Stages of the Chebyshev method, summed over steps that the front makes each in the time of the largest displacement;
+// the fastest rate is some 12 k_s/zeta. Three quarters of the particles are awake on average.
+ExpectedCost stabilised_cost(const DryingScene& s) {
+  const double a = s.smallest_radius();
+  const BondLaw law(s.model.contact, s.model.material, a, a);
+  const double rate = 12 * std::max(law.normal_stiffness(), law.k_s) / drag_coefficient(s.model.viscosity, a);
+  const double advance = s.model.droplet.initial_radius / a / s.control.largest_displacement;
+  const double steps = 2.0 / 3 * std::sqrt(2.5 * rate * s.model.droplet.lifetime * advance);
+  return {steps, 0.75 * 24e-9 * static_cast<double>(s.radius.size()) * steps};
+}
+
 }  // namespace
 
 ExpectedCost expected_cost(const DryingScene& s) {
@@ -63,6 +76,7 @@ ExpectedCost expected_cost(const DryingScene& s) {
   if (s.model.thermal_energy > 0) {
     return brownian_cost(s);
   }
+  if (s.stabilised) return stabilised_cost(s);
   const double advance = s.model.droplet.initial_radius / s.smallest_radius() / s.control.largest_displacement;
   const double steps = advance / 0.8 + 5.5 * std::pow(N, 0.75);
   return {steps, 3e-6 * std::pow(N, 0.23) * N * steps};

@@ -1,5 +1,6 @@
 // Dries one droplet of colloid: scene in, agglomerate file out.
 #include <fmt/core.h>
+#include <omp.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -98,6 +99,7 @@ int dry(int argc, const char* const* argv) {
     fmt::print("{}", *line.answer);
     return 0;
   }
+  if (line.threads > 0) omp_set_num_threads(line.threads);
   const Scene text = Scene::read(line.scene, drying_parameters(), line.overrides);
   const DryingScene scene = drying_scene(text);
   const Provenance provenance = make_provenance("dryer", {argv, argv + argc}, scene.seed, rng_name);

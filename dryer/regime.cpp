@@ -43,6 +43,15 @@ std::string DryingRegime::words() const {
   return text;
 }
 
+std::string integrator_text(const DryingScene& s) {
+  return s.stabilised
+             ? fmt::format(
+                   "explicit stabilised steps, as for more than {} particles at D = 0: an evaluation costs the "
+                   "same for every particle",
+                   DryingScene::most_implicit)
+             : fmt::format("implicit steps, as for up to {} particles at D = 0", DryingScene::most_implicit);
+}
+
 std::vector<std::string> describe(const DryingScene& s) {
   const DryingRegime r = drying_regime(s);
   const double a = s.nominal_radius, R0 = s.model.droplet.initial_radius, mu = s.model.viscosity;
@@ -79,6 +88,7 @@ std::vector<std::string> describe(const DryingScene& s) {
                               m / drag_coefficient(mu, a), drag_coefficient(mu, a) / law.normal_stiffness(),
                               s.model.droplet.lifetime));
   lines.push_back(r.words());
+  if (!s.diffuses() && !s.inertial) lines.push_back(fmt::format("integrator: {}", integrator_text(s)));
   lines.push_back(expected_cost_text(s));
   return lines;
 }
@@ -99,6 +109,7 @@ void report_regime(Report& report, const DryingScene& s) {
   report.result("inputs.front_speed_m_per_s", r.front_speed);
   report.result("inputs.capillary_speed_limit_m_per_s", r.capillary_speed);
   report.result("inputs.regime", r.words());
+  if (!s.diffuses() && !s.inertial) report.result("inputs.integrator", integrator_text(s));
 }
 
 }  // namespace crumble

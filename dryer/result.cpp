@@ -71,6 +71,7 @@ void fill_report(Report& report, const DryingScene& scene, const DryingRun& run,
   report.result("drying_time_s", run.state().state.time);
   report.result("contacts_made", s.contacts_made);
   report.result("contacts_lost", s.contacts_lost);
+  report.result("particle_steps", s.particle_steps);
 
   report.error("largest_overlap_over_a", s.largest_overlap,
                "deepest overlap of two bonded particles at the end of any step");

@@ -17,6 +17,9 @@ std::unique_ptr<Integrator> make_integrator(const DryingScene& scene, const Dryi
     control.depth = depth;
     return std::make_unique<Brownian>(model, state, scene.seed, control);
   }
+  if (scene.stabilised)
+    return std::make_unique<Stabilised>(model, state,
+                                        StabilisedControl{coarsening * scene.control.largest_displacement});
   OverdampedControl control = scene.control;
   control.largest_displacement *= coarsening;
   control.contact_precision *= coarsening;

@@ -34,6 +34,19 @@ std::vector<double> frames(const Scene& scene) {
   return fraction;
 }
 
+// Implicit steps are the better known ones; the factors that they need grow faster than the number of particles.
+bool is_stabilised(const Scene& scene, const DryingScene& s) {
+  const std::string method = scene.choice("integrator.method");
+  const bool by_name = method == "stabilised" || method == "implicit";
+  if (by_name && s.model.thermal_energy > 0)
+    throw scene.error("integrator.method", "knows no Brownian motion; set \"overdamped\" or \"inertial\"");
+  if (method == "stabilised" && s.model.contact.normal != NormalLaw::jkr)
+    throw scene.error("integrator.method", "knows the contact law jkr only; set \"implicit\"");
+  if (by_name) return method == "stabilised";
+  return method == "overdamped" && s.model.thermal_energy == 0 && s.model.contact.normal == NormalLaw::jkr &&
+         s.radius.size() > DryingScene::most_implicit;
+}
+
 }  // namespace
 
 DryingScene drying_scene(const Scene& scene) {
@@ -59,6 +72,7 @@ DryingScene drying_scene(const Scene& scene) {
   c.rolling_stiffness_factor = scene.real("contact.rolling_stiffness_factor");
   s.seed = static_cast<std::uint64_t>(scene.integer("run.seed"));
   s.inertial = scene.choice("integrator.method") == "inertial";
+  s.stabilised = is_stabilised(scene, s);
   s.control = {scene.real("integrator.largest_displacement"), scene.real("integrator.contact_precision")};
   s.brownian.contact_step = scene.real("integrator.contact_step");
   s.softening = scene.real("integrator.softening");

@@ -7,12 +7,15 @@
 #include "dryer/brownian.hpp"
 #include "dryer/model.hpp"
 #include "dryer/overdamped.hpp"
+#include "dryer/stabilised.hpp"
 
 namespace crumble {
 
 const ParameterTable& drying_parameters();
 
 struct DryingScene {
+  static constexpr std::size_t most_implicit = 500;  // particles, at D = 0 and unless the scene says otherwise
+
   double nominal_radius = 0;   // a of the scene: of Pe, D; equal to all of the following unless they are distributed, m
   std::vector<double> radius;  // one a particle, descending, m
   double surface_tension = 0;  // sigma of the liquid, N/m; the model's has the factor of the contact angle
@@ -20,6 +23,7 @@ struct DryingScene {
   DryingModel model;
   std::uint64_t seed = 1;
   bool inertial = false;
+  bool stabilised = false;  // explicit stabilised steps where there is no Brownian motion, else implicit ones
   double step = 0;  // inertial only, s
   OverdampedControl control;
   BrownianControl brownian;

@@ -94,16 +94,16 @@ const ParameterTable& drying_parameters() {
       {"integrator",
        "How the equations are solved.",
        {P::choice(
-            "method", {"overdamped", "inertial"},
-            "overdamped: no inertia; contacts implicit and steps adaptive at D = 0, two fixed rates with Brownian "
-            "motion; inertial: the paper's scheme, fixed step, slow")
+            "method", {"overdamped", "implicit", "stabilised", "inertial"},
+            "overdamped: no inertia; two fixed rates with Brownian motion; at D = 0 implicit up to 500 particles and "
+            "stabilised above, which can be asked for by name; inertial: the paper's scheme, fixed step, slow")
             .by_default("overdamped"),
-        P::real("largest_displacement", "", "overdamped: largest motion of a particle in one step, in a")
+        P::real("largest_displacement", "", "implicit and stabilised: largest motion of a particle in one step, in a")
             .above(0)
             .at_most(0.1)
             .by_default(0.02),
         P::real("contact_precision", "",
-                "overdamped: overlap beyond which a pair is bonded within the step in which it touches, in a")
+                "implicit: overlap beyond which a pair is bonded within the step in which it touches, in a")
             .above(0)
             .at_most(1e-2)
             .by_default(1e-4),

@@ -1,0 +1,399 @@
+#include "dryer/stabilised.hpp"
+
+#include <fmt/core.h>
+#include <omp.h>
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "common/agglomerate/bond.hpp"
+#include "dryer/drag.hpp"
+
+namespace crumble {
+
+namespace {
+
+// In the smallest radius: how near pairs must be to be looked at within a step(), and in the list of all.
+constexpr double near = 0.2, skin = 0.5;
+// Of the front within a step(), in the largest displacement of a stabilised step.
+constexpr double steps_in_one = 8;
+// Room for bonds that are made or pressed within a stabilised step.
+constexpr double room = 1.2;
+// Evaluations from one look at the stiffness to the next.
+constexpr int look = 64;
+// From so many on, several threads are worth it.
+constexpr std::size_t many = 2000;
+
+std::uint64_t spread(std::uint64_t x) {
+  x &= 0x1fffff;
+  x = (x | x << 32) & 0x1f00000000ffff;
+  x = (x | x << 16) & 0x1f0000ff0000ff;
+  x = (x | x << 8) & 0x100f00f00f00f00f;
+  x = (x | x << 4) & 0x10c30c30c30c30c3;
+  return (x | x << 2) & 0x1249249249249249;
+}
+
+// Neighbours in space get neighbouring places, so that what a bond reads is in the cache.
+std::uint64_t morton(const Vector3& x, double width) {
+  std::uint64_t key = 0;
+  for (int k = 0; k < 3; ++k) key |= spread(static_cast<std::uint64_t>(std::max(0.0, x[k] / width + 1048576.0))) << k;
+  return key;
+}
+
+}  // namespace
+
+Stabilised::Stabilised(const DryingModel& model, Agglomerate& state, const StabilisedControl& control)
+    : Integrator(model, state, skin), control_(control), place_(state.particles.size(), -1) {
+  if (model.contact.normal != NormalLaw::jkr) throw std::invalid_argument("stabilised steps know the JKR law only");
+  if (model.thermal_energy > 0) throw std::invalid_argument("stabilised steps know no Brownian motion");
+  state.state.velocity.resize(state.particles.size(), Vector3::Zero());
+}
+
+// Until the front has gone so many of the smallest radius, s.
+double Stabilised::time_of_travel(double radii) const {
+  const double t = state_.state.time, R = front_.radius(t);
+  return front_.time_at(std::max(R - radii * smallest_radius(), 0.0)) - t;
+}
+
+void Stabilised::step(double latest_time) {
+  Frame& f = state_.state;
+  const double begin = f.time;
+  const double end = std::min(begin + time_of_travel(steps_in_one * control_.largest_displacement), latest_time);
+  choose(front_.radius(end));
+  gather();
+  origin_ = motion_.position;
+  if (next_dt_ == 0) next_dt_ = end - begin;
+  if (chosen_.empty()) f.time = end;
+  meet(open_pairs_, 0);
+  while (f.time < end) {
+    stabilised_step(end);
+    if (displacement(origin_, 0) > 0.5 * near) break;  // more pairs may be near now
+  }
+  bonds_.advance(motion_);
+  lose();
+  put_back(begin);
+  front_.follow(state_);
+}
+
+std::vector<Pair> Stabilised::within(double gap) const {
+  std::vector<Pair> found;
+  const auto& x = state_.state.position;
+  const auto& a = state_.particles.radius;
+  auto bond = state_.state.contacts.begin();  // both lists are sorted
+  for (const Pair& pair : listed_) {
+    const double reach = a[pair.i] + a[pair.j] + gap;
+    if ((x[pair.j] - x[pair.i]).squaredNorm() >= reach * reach) continue;
+    while (bond != state_.state.contacts.end() && Pair{bond->i, bond->j} < pair) ++bond;
+    if (bond == state_.state.contacts.end() || Pair{bond->i, bond->j} != pair) found.push_back(pair);
+  }
+  return found;
+}
+
+// Who moves and who may be met: the list depends on the state alone.
+void Stabilised::choose(double R_end) {
+  Frame& f = state_.state;
+  activity_.front_at(R_end);
+  const double a = smallest_radius(), far = 0.5 * (skin - near) * a;
+  bool moved = reference_.empty();
+  for (std::size_t p = 0; p < reference_.size() && !moved; ++p)
+    moved = !((f.position[p] - reference_[p]).squaredNorm() < far * far);
+  if (moved) {
+    reference_ = f.position;
+    search_.find(f.position, state_.particles.radius, skin * a, listed_);
+  }
+  std::vector<Pair> pairs = within(near * a);
+  std::erase_if(pairs, [&](const Pair& p) { return !activity_.is_active(p.i) && !activity_.is_active(p.j); });
+  std::vector<std::pair<std::uint64_t, std::int32_t>> order;
+  const auto choose_one = [&](std::int32_t p) {
+    if (place_[p] >= 0) return;
+    place_[p] = 0;
+    order.emplace_back(morton(f.position[p], 2 * a), p);
+  };
+  std::fill(place_.begin(), place_.end(), -1);
+  for (const std::int32_t p : activity_.active()) choose_one(p);
+  for (const Pair& pair : pairs) choose_one(pair.i), choose_one(pair.j);
+  std::sort(order.begin(), order.end());
+  chosen_.clear();
+  for (const auto& [key, p] : order) {
+    place_[p] = static_cast<std::int32_t>(chosen_.size());
+    chosen_.push_back(p);
+  }
+  open_pairs_.clear();
+  for (const Pair& pair : pairs) open_pairs_.push_back({place_[pair.i], place_[pair.j]});
+}
+
+void Stabilised::gather() {
+  const Frame& f = state_.state;
+  const std::size_t count = chosen_.size();
+  motion_.resize(count);
+  for (int k = 0; k < 2; ++k) {
+    drag_[k].resize(count);
+    ahead_[k].assign(count, {});
+  }
+  radius_.assign(padded(count), 0);
+  for (std::size_t m = 0; m < count; ++m) {
+    const double a = state_.particles.radius[chosen_[m]];
+    motion_.position[m] = double_row(f.position[chosen_[m]]);
+    drag_[0][m] = static_cast<float>(1 / drag_coefficient(model_.viscosity, a));
+    drag_[1][m] = static_cast<float>(1 / rotational_drag_coefficient(model_.viscosity, a));
+    radius_[m] = static_cast<float>(a);
+  }
+  // In the order of their first place, for the cache.
+  std::vector<std::pair<std::int32_t, std::int32_t>> order;
+  for (std::size_t b = 0; b < f.contacts.size(); ++b)
+    order.emplace_back(std::min(place_[f.contacts[b].i], place_[f.contacts[b].j]), static_cast<std::int32_t>(b));
+  std::sort(order.begin(), order.end());
+  bonds_.clear(count);
+  for (const auto& [place, b] : order) {
+    const Contact& bond = f.contacts[b];
+    const BondLaw& law = laws_(bond.i, bond.j);
+    bonds_.add(bond, place_[bond.i], place_[bond.j], law, state_.particles.radius[bond.i],
+               state_.particles.radius[bond.j], law.lost_gap());
+  }
+}
+
+// Upper bound of the eigenvalues that belong to a particle, 1/s. The energy of a bond is a square of differences
+// between its ends, and (x - y)^2 <= 2 x^2 + 2 y^2 makes a sum over particles of it: of the displacements with 2 k_n
+// along the normal and 3.5 k_s across it, of the rotations with 3.5 k_s across it, too, rolling and twisting added (3.5
+// = 1 + 1 + 3/4 + 3/4, since zeta_r = 4/3 a^2 zeta).
+double Stabilised::rate_at(std::size_t place, double known) const {
+  const auto [displacing, across, turning] = bonds_.stiffness_on(place);
+  const double a = radius_[place], zeta = drag_[0][place], other = turning / (4.0 / 3.0 * a * a);
+  const auto largest = [](const Eigen::Matrix3f& S) {
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> solver;
+    solver.computeDirect(S, Eigen::EigenvaluesOnly);
+    return static_cast<double>(solver.eigenvalues()[2]);
+  };
+  // The norm is cheaper and not below; most particles are far from the stiffest.
+  double rate = std::max<double>(displacing.norm(), across.norm() + other) * zeta;
+  if (rate > known) rate = std::max(largest(displacing), largest(across) + other) * zeta;
+  return rate;
+}
+
+// Where the surface drags a free particle along, F_c = zeta v at a depth d with F_c = 2 pi sigma sqrt(2 a d); its slope
+// F_c/(2 d), 1/s.
+double Stabilised::surface_rate() const {
+  const double pull = 2 * std::numbers::pi * model_.droplet.surface_tension,
+               zeta = drag_coefficient(model_.viscosity, smallest_radius()), R = front_.radius(state_.state.time);
+  return R > 0 ? pull * pull * smallest_radius() / (zeta * zeta * model_.droplet.front_speed(R)) : 0;
+}
+
+double Stabilised::rate() const {
+  double most = 0;
+  const std::size_t count = chosen_.size();
+#pragma omp parallel for schedule(static) reduction(max : most) if (count > many)
+  for (std::size_t m = 0; m < count; ++m) most = std::max(most, rate_at(m, most));
+  return most;
+}
+
+// Sorts out of the open pairs those that can meet within a stabilised step.
+void Stabilised::part(double gap) {
+  closest_.clear();
+  std::size_t left = 0;
+  for (const Pair& pair : open_pairs_) {
+    const Quad D = in_single(load(motion_.position[pair.j]) - load(motion_.position[pair.i]));
+    const float reach = radius_[pair.i] + radius_[pair.j] + static_cast<float>(gap);
+    if (D[0] * D[0] + D[1] * D[1] + D[2] * D[2] < reach * reach)
+      closest_.push_back(pair);
+    else
+      open_pairs_[left++] = pair;
+  }
+  open_pairs_.resize(left);
+}
+
+void Stabilised::stabilised_step(double latest_time) {
+  Frame& f = state_.state;
+  bonds_.find_stiffness();
+  const double limit = std::max(room * rate(), 4 * surface_rate()), left = latest_time - f.time;
+  double dt = std::min({next_dt_, left, time_of_travel(control_.largest_displacement)});
+  if (left < 1.5 * dt) dt = left;
+  const int stages = Chebyshev::stages(dt, limit);
+  const Chebyshev method(stages);
+  before_ = motion_.position;
+  part(4 * control_.largest_displacement * smallest_radius());
+  int done = 0;
+  bool within_limit = true;
+  while (done < stages && within_limit) {
+    bonds_.advance(motion_);
+    push(method.stage[done], dt, front_.radius(f.time + method.stage[done].time * dt));
+    ++done;
+    lose();
+    within_limit = meet(closest_, limit);
+    if (done % look == 0 && done + look / 2 < stages) {
+      bonds_.find_stiffness();
+      within_limit = within_limit && rate() < limit;
+    }
+  }
+  const bool whole = done == stages;
+  const double passed = whole ? dt : method.reached[done - 1] * dt;
+  f.time = whole && dt == left ? latest_time : f.time + passed;
+  open_pairs_.insert(open_pairs_.end(), closest_.begin(), closest_.end());
+  closest_.clear();
+  meet(open_pairs_, limit);
+  statistics_.rejected += !whole;
+  statistics_.steps += done;
+  statistics_.particle_steps += done * static_cast<std::int64_t>(chosen_.size());
+  f.step += done;
+  const double moved = displacement(before_, 0.001) / control_.largest_displacement;
+  next_dt_ = dt * std::clamp(0.9 / std::max(moved * (passed > 0 ? dt / passed : 1), 1e-3), 0.5, 2.0);
+}
+
+void Stabilised::push(const Chebyshev::Stage& stage, double dt, double R) {
+  const std::size_t count = chosen_.size();
+  if (count < many) {
+    for (std::size_t m = 0; m < count; m += lanes) push_some(m, stage, dt, R);
+    return;
+  }
+#pragma omp parallel for schedule(static)
+  for (std::size_t m = 0; m < count; m += lanes) push_some(m, stage, dt, R);
+}
+
+// The places of one register.
+void Stabilised::push_some(std::size_t first, const Chebyshev::Stage& stage, double dt, double R) {
+  const std::size_t count = std::min(lanes, chosen_.size() - first);
+  DoubleRow* position = motion_.position.data() + first;
+  Row *rotation = motion_.rotation.data() + first, *ahead = ahead_[0].data() + first,
+      *turn_ahead = ahead_[1].data() + first;
+  const float *drag = drag_[0].data() + first, *turning_drag = drag_[1].data() + first;
+  // Of the surface, over the distance from the centre: Eq. 8 with r - R as a difference of squares, for its digits.
+  Lane excess = Lane::Zero();
+  for (std::size_t l = 0; l < count; ++l) {
+    const double* x = position[l].at;
+    excess[static_cast<Eigen::Index>(l)] = static_cast<float>(x[0] * x[0] + x[1] * x[1] + x[2] * x[2] - R * R);
+  }
+  const float front = static_cast<float>(R),
+              sigma = static_cast<float>(-2 * std::numbers::pi * model_.droplet.surface_tension);
+  const Lane a = read(&radius_[first]), r = (excess + front * front).max(0.0f).sqrt(), sum = r + front,
+             offset = excess / sum.max(1e-30f);
+  // None where R < a and the liquid is inside the particle, or where there is no liquid.
+  const Lane squared = R > 0 ? Lane(((a - offset) * (a + offset)).max(0.0f) * ((sum - a) * 1e30f).max(0.0f).min(1.0f))
+                             : Lane(Lane::Zero());
+  alignas(64) float pull[lanes];
+  write(pull, sigma * squared.sqrt() / r.max(1e-6f * front + 1e-30f));
+
+  const Quad memory = all(static_cast<float>(stage.memory));
+  const float push = static_cast<float>(stage.push * dt);
+  for (std::size_t l = 0; l < count; ++l) {
+    const auto [force, torque] = bonds_.load_on(first + l);
+    const DoubleQuad x = load(position[l]);
+    const Quad way = memory * load(ahead[l]) + all(push * drag[l]) * (force + all(pull[l]) * in_single(x));
+    const Quad turn = memory * load(turn_ahead[l]) + all(push * turning_drag[l]) * torque;
+    store(ahead[l], way);
+    store(turn_ahead[l], turn);
+    store(position[l], x + in_double(way));
+    store(rotation[l], turn);
+  }
+}
+
+void Stabilised::lose() {
+  const auto& lost = bonds_.lost();
+  for (auto b = lost.rbegin(); b != lost.rend(); ++b) {
+    const auto bond = static_cast<std::size_t>(*b);
+    const std::int32_t i = bonds_.first(bond), j = bonds_.second(bond);
+    closest_.push_back({i, j});
+    // What the bond has left of motion is the method's, not theirs: nothing would stop it.
+    for (auto& ahead : ahead_) ahead[i] = ahead[j] = {};
+    bonds_.remove(bond);
+    ++statistics_.contacts_lost;
+  }
+}
+
+// Bonds what touches among the pairs and takes it from them. False if that makes a particle stiffer than `most`, 1/s.
+bool Stabilised::meet(std::vector<Pair>& pairs, double most) {
+  const auto touch = [&](const Pair& pair) {
+    const Quad D = in_single(load(motion_.position[pair.j]) - load(motion_.position[pair.i]));
+    const float reach = radius_[pair.i] + radius_[pair.j];
+    return D[0] * D[0] + D[1] * D[1] + D[2] * D[2] <= reach * reach;
+  };
+  std::vector<std::size_t> touching;
+  if (pairs.size() < many) {
+    for (std::size_t q = 0; q < pairs.size(); ++q)
+      if (touch(pairs[q])) touching.push_back(q);
+  } else {
+#pragma omp parallel
+    {
+      std::vector<std::size_t> mine;
+#pragma omp for schedule(static) nowait
+      for (std::size_t q = 0; q < pairs.size(); ++q)
+        if (touch(pairs[q])) mine.push_back(q);
+#pragma omp critical
+      touching.insert(touching.end(), mine.begin(), mine.end());
+    }
+    std::sort(touching.begin(), touching.end());
+  }
+  bool within_limit = true;
+  for (auto q = touching.rbegin(); q != touching.rend(); ++q) {
+    const auto [i, j] = pairs[*q];
+    pairs[*q] = pairs.back();
+    pairs.pop_back();
+    const std::int32_t p = chosen_[i], other = chosen_[j];
+    const double a_p = state_.particles.radius[p], a_q = state_.particles.radius[other];
+    const BondLaw& law = laws_(p, other);
+    const Vector3 D = vector(motion_.position[j]) - vector(motion_.position[i]);
+    bonds_.add(make_bond(law, p, other, D, a_p, a_q, state_.state.step), i, j, law, a_p, a_q, law.lost_gap());
+    for (const std::int32_t place : {i, j})
+      within_limit = within_limit && rate_at(static_cast<std::size_t>(place), most) < most;
+    ++statistics_.contacts_made;
+  }
+  return within_limit;
+}
+
+// From where the particles were, in the smallest radius: the largest, or a fifth of it where it is that of fewer than
+// the quantile, as in overdamped.cpp.
+double Stabilised::displacement(const std::vector<DoubleRow>& from, double quantile) {
+  const std::size_t count = chosen_.size();
+  moves_.resize(count);
+#pragma omp parallel for schedule(static) if (count > many)
+  for (std::size_t m = 0; m < count; ++m) {
+    const Quad D = in_single(load(motion_.position[m]) - load(from[m]));
+    moves_[m] = std::sqrt(D[0] * D[0] + D[1] * D[1] + D[2] * D[2]) / smallest_radius();
+  }
+  if (moves_.empty()) return 0;
+  const auto place = moves_.end() - 1 - static_cast<std::ptrdiff_t>(quantile * static_cast<double>(moves_.size()));
+  std::nth_element(moves_.begin(), place, moves_.end());
+  const double largest = *std::max_element(place, moves_.end());
+  return quantile > 0 ? std::max(*place, largest / 5) : largest;
+}
+
+void Stabilised::put_back(double begin) {
+  Frame& f = state_.state;
+  const double passed = f.time - begin;
+  for (std::size_t m = 0; m < chosen_.size(); ++m) {
+    const std::int32_t p = chosen_[m];
+    const Vector3 x = vector(motion_.position[m]);
+    if (!x.allFinite())
+      throw std::domain_error(fmt::format("step {} at t = {:.6g} s: particle {} is not finite", f.step, f.time, p));
+    f.velocity[p] = passed > 0 ? Vector3((x - f.position[p]) / passed) : Vector3(Vector3::Zero());
+    f.position[p] = x;
+  }
+  f.contacts.resize(bonds_.size());
+  for (std::size_t b = 0; b < bonds_.size(); ++b) {
+    Contact& bond = f.contacts[b];
+    bond.i = chosen_[bonds_.first(b)];
+    bond.j = chosen_[bonds_.second(b)];
+    bonds_.store(b, bond);
+    bond.at_limit = 0;
+    evaluate_loads(bond, laws_(bond.i, bond.j));
+    activity_.wake(bond.i);
+    activity_.wake(bond.j);
+  }
+  std::sort(f.contacts.begin(), f.contacts.end(), [](const Contact& a, const Contact& b) {
+    return Pair{a.i, a.j} < Pair{b.i, b.j};
+  });
+  statistics_.largest_overlap = std::max(statistics_.largest_overlap, bonds_.deepest_overlap());
+}
+
+Integrator::Memory Stabilised::memory() const {
+  Memory memory = Integrator::memory();
+  memory.numbers.push_back(next_dt_);
+  return memory;
+}
+
+void Stabilised::recall(const Memory& memory) {
+  Integrator::recall(memory);
+  next_dt_ = memory.numbers.at(1);
+}
+
+}  // namespace crumble

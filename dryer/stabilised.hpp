@@ -1,0 +1,64 @@
+// The integrator for very many particles without Brownian motion: no inertia, explicit stabilised steps.
+#pragma once
+
+#include "common/numerics/neighbours.hpp"
+#include "dryer/bond_block.hpp"
+#include "dryer/chebyshev.hpp"
+#include "dryer/integrator.hpp"
+
+namespace crumble {
+
+struct StabilisedControl {
+  double largest_displacement = 0.02;  // of a particle in one stabilised step, in its radius
+};
+
+// dx/dt = F/zeta and the same for rotations by the method of chebyshev.hpp: as many evaluations a step as the stiffest
+// contact asks for, and no system of equations. Each evaluation is a short way of all particles, on which bonds are
+// carried, made and lost as in Brownian drying. On all threads; the same bits on any number of them.
+//
+// A step() of the integrator is several stabilised steps with one list of particles and near pairs. Particles that
+// neither the front nor a bond has reached are in it only as obstacles.
+class Stabilised : public Integrator {
+ public:
+  Stabilised(const DryingModel& model, Agglomerate& state, const StabilisedControl& control);
+
+  // Throws std::domain_error naming the particle if the state is not finite.
+  void step(double latest_time) override;
+
+  Memory memory() const override;
+  void recall(const Memory& memory) override;
+
+ private:
+  void choose(double R_end);
+  void gather();
+  void put_back(double begin);
+  void stabilised_step(double latest_time);
+  double rate() const;
+  double rate_at(std::size_t place, double known) const;
+  double surface_rate() const;
+  void part(double gap);
+  void push(const Chebyshev::Stage& stage, double dt, double R);
+  void push_some(std::size_t first, const Chebyshev::Stage& stage, double dt, double R);
+  bool meet(std::vector<Pair>& pairs, double most);
+  void lose();
+  double displacement(const std::vector<DoubleRow>& from, double quantile);
+  double time_of_travel(double radii) const;
+  std::vector<Pair> within(double gap) const;
+
+  StabilisedControl control_;
+  double next_dt_ = 0;  // s
+  NeighbourSearch search_;
+  std::vector<Pair> listed_;        // all pairs within the skin of where their particles were, sorted
+  std::vector<Vector3> reference_;  // there
+  std::vector<std::int32_t> chosen_, place_;
+  std::vector<float> drag_[2];  // 1/zeta, 1/zeta_r
+  std::vector<float> radius_;
+  std::vector<Row> ahead_[2];  // increments of the last evaluation, m and rad
+  std::vector<DoubleRow> origin_, before_;
+  MotionBlock motion_;
+  BondBlock bonds_;
+  std::vector<Pair> open_pairs_, closest_;  // places that may meet within the step, and within a stabilised step
+  std::vector<double> moves_;
+};
+
+}  // namespace crumble
