@@ -46,10 +46,10 @@ std::string DryingRegime::words() const {
 std::string integrator_text(const DryingScene& s) {
   return s.stabilised
              ? fmt::format(
-                   "explicit stabilised steps, as for more than {} particles at D = 0: an evaluation costs the "
+                   "explicit stabilised steps (the rule: for more than {} particles at D = 0): an evaluation costs the "
                    "same for every particle",
                    DryingScene::most_implicit)
-             : fmt::format("implicit steps, as for up to {} particles at D = 0", DryingScene::most_implicit);
+             : fmt::format("implicit steps (the rule: for up to {} particles at D = 0)", DryingScene::most_implicit);
 }
 
 std::vector<std::string> describe(const DryingScene& s) {

@@ -65,7 +65,11 @@ void Stabilised::step(double latest_time) {
   gather();
   origin_ = motion_.position;
   if (next_dt_ == 0) next_dt_ = end - begin;
-  if (chosen_.empty()) f.time = end;
+  if (chosen_.empty()) {
+    f.time = end;
+    ++f.step;  // frames need numbers that grow
+    ++statistics_.steps;
+  }
   meet(open_pairs_, 0);
   while (f.time < end) {
     stabilised_step(end);

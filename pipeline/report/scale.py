@@ -19,7 +19,7 @@ RADIUS_OF_100000 = 32e-6  # m
 def dry(dryer, scene, folder, number, threads):
     name = os.path.join(folder, f"{number}-{threads}")
     radius = RADIUS_OF_100000 * (number / 1e5) ** (1 / 3)
-    if not os.path.exists(name + ".json"):
+    if not os.path.exists(name + ".json") or os.path.getmtime(name + ".json") < os.path.getmtime(dryer):
         subprocess.run(
             [dryer, scene, "-o", name + ".h5", "--report", name + ".json", "--threads", str(threads), "--set",
              f"particle.number={number}", "--set", f"droplet.radius={radius:.5g}", "--set",
@@ -35,7 +35,7 @@ def dry(dryer, scene, folder, number, threads):
 def main():
     dryer, scene, folder, *numbers = sys.argv[1:]
     cores = os.cpu_count()
-    print("| N | evaluations | idle % | wall s, 1 thread | CPU s | wall s, %d threads | speed-up | same bits | ns a particle and evaluation"
+    print("| N | evaluations | idle %% | wall s, 1 thread | CPU s | wall s, %d threads | speed-up | same bits | ns a particle and evaluation"
           " | growth | bytes a particle | d_c um | h_c/d_c | contacts | fragments |" % cores)
     print("|" + "---|" * 15)
     base = dry(dryer, scene, folder, 10, 1)["peak_rss_bytes"]

@@ -128,6 +128,7 @@ TEST(Stabilised, a_droplet_of_loose_particles_that_the_front_has_not_reached_sta
   EXPECT_EQ(s.state.position[0], Vector3::Zero());
   EXPECT_EQ(s.state.position[1], Vector3(60e-9, 0, 0));
   EXPECT_EQ(integrator.statistics().particle_steps, 0);
+  EXPECT_EQ(s.state.step, 20) << "each step has its number, for the frames";
 }
 
 }  // namespace
