@@ -71,6 +71,12 @@ std::unique_ptr<Integrator> BreakupRun::integrate(const Piece& piece, Frame fram
   return std::make_unique<Implicit>(scene_.model, protocol_, radius, std::move(frame), tolerance());
 }
 
+std::string BreakupRun::ending() const {
+  if (broken_ || !finished_) return "";
+  if (stress() < scene_.largest_stress) return "nothing broke until the end of the protocol";
+  return fmt::format("nothing broke up to protocol.largest_stress = {:g} Pa", scene_.largest_stress);
+}
+
 double BreakupRun::time() const { return pieces_.empty() ? whole_.time : pieces_[turn_].integrator->frame().time; }
 double BreakupRun::stress() const { return protocol_.stress_before(time()); }
 
@@ -327,11 +333,9 @@ void BreakupRun::step() {
   if (stress() >= scene_.largest_stress) {
     finished_ = true;
     look_back(2 * stress());
-    ending_ = fmt::format("nothing broke up to protocol.largest_stress = {:g} Pa", scene_.largest_stress);
   } else if (time() >= protocol_.end()) {
     finished_ = true;
     look_back(2 * stress());
-    ending_ = "nothing broke until the end of the protocol";
   }
 }
 
@@ -353,7 +357,7 @@ BreakupRun::Memory BreakupRun::memory() const {
     m.numbers.push_back(stress.value_or(-1));
   m.numbers.insert(m.numbers.end(), {window_end_, max_use_, retired_.largest_overlap});
   m.counts.insert(m.counts.end(),
-                  {breakup_.contacts_initial, static_cast<std::int64_t>(turn_), broken_, retired_.steps,
+                  {breakup_.contacts_initial, static_cast<std::int64_t>(turn_), broken_, finished_, retired_.steps,
                    retired_.rejected, retired_.newton_iterations, retired_.factorisations, retired_.rigid_steps});
   m.numbers.insert(m.numbers.end(), severed_at_.begin(), severed_at_.end());
   m.counts.push_back(static_cast<std::int64_t>(events_.size()));
@@ -406,6 +410,7 @@ void BreakupRun::recall(const Memory& m) {
   breakup_.contacts_initial = *count++;
   turn_ = static_cast<std::size_t>(*count++);
   broken_ = *count++ != 0;
+  finished_ = *count++ != 0;
   for (auto* s : {&retired_.steps, &retired_.rejected, &retired_.newton_iterations, &retired_.factorisations,
                   &retired_.rigid_steps})
     *s = *count++;

@@ -43,7 +43,7 @@ class BreakupRun {
   // Whether the last step ended a stage of the protocol.
   bool at_stage_end() const { return at_stage_end_; }
   // Why it ended, if not by breakup.
-  const std::string& ending() const { return ending_; }
+  std::string ending() const;
 
   double tolerance() const { return scene_.tolerance * coarsening_; }  // of the implicit integrator
   double time() const;
@@ -93,7 +93,6 @@ class BreakupRun {
   double max_use_ = 0;
   IntegratorStatistics retired_;  // of integrators that are gone
   bool finished_ = false, broken_ = false, at_stage_end_ = false;
-  std::string ending_;
 
   std::unique_ptr<Integrator> integrate(const Piece& piece, Frame frame) const;
   Frame part_of(const Frame& frame, const std::vector<std::int32_t>& rows) const;

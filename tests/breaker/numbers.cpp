@@ -1,6 +1,7 @@
 // Critical stresses of clusters for which they are known, and the explicit reference beside the default.
 #include <gtest/gtest.h>
 
+#include "breaker/run.hpp"
 #include "samples.hpp"
 
 namespace crumble {
@@ -75,6 +76,26 @@ TEST(Reference, TetrahedronAgrees) { expect_agreement(tetrahedron(), Rung::fts, 
 // Contacts that bend, twist and yield.
 TEST(Reference, BentChainAgrees) { expect_agreement(bent_chain(), Rung::fts_relative_lubrication, 2e7, 0.1); }
 TEST(Reference, RingAgrees) { expect_agreement(ring(), Rung::fts, 2e7); }
+
+// A run may be stopped between its end and that of its error estimate.
+TEST(BreakupRun, ThatHasEndedHasEndedAfterARestart) {
+  const Agglomerate doublet = cluster(chain(2));
+  for (const double largest : {1e5, 500.}) {
+    BreakerScene scene;
+    scene.model = elongation(Rung::fts);
+    scene.protocol = Protocol({{0, 5e6}});
+    scene.largest_stress = largest;
+    BreakupRun run(scene, doublet, 1);
+    while (!run.finished()) run.step();
+    EXPECT_EQ(run.breakup().severed.has_value(), largest > 2e4);
+    EXPECT_EQ(run.ending().empty(), largest > 2e4);
+    BreakupRun again(scene, doublet, 1);
+    again.recall(run.memory());
+    EXPECT_TRUE(again.finished());
+    EXPECT_EQ(again.ending(), run.ending());
+    EXPECT_EQ(again.breakup().severed, run.breakup().severed);
+  }
+}
 
 }  // namespace
 }  // namespace crumble
