@@ -43,7 +43,7 @@ void BondBlock::link(std::int32_t place, std::int32_t end) {
     const std::size_t places = degree_.size(), before = capacity_;
     capacity_ *= 2;
     links_.resize(places * capacity_);
-    for (std::size_t p = places; p-- > 0;)
+    for (std::size_t p = places; p-- > 1;)  // the first stays where it is
       std::copy_backward(links_.data() + p * before, links_.data() + (p + 1) * before,
                          links_.data() + p * capacity_ + before);
   }
