@@ -9,10 +9,12 @@ using Eigen::VectorXd;
 ImplicitStep::ImplicitStep(const std::vector<double>& radius, double length, const BondLaws& laws)
     : radius_(radius), length_(length), laws_(laws) {}
 
+BondEnds ImplicitStep::ends(const Contact& bond) const { return {radius_[bond.i], radius_[bond.j], length_, length_}; }
+
 BondIncrement ImplicitStep::increment(const Frame& frame, const Contact& bond, const VectorXd& q) const {
   return {bond,
           laws_(bond.i, bond.j),
-          {radius_[bond.i], radius_[bond.j], length_, length_},
+          ends(bond),
           frame.position[bond.j] - frame.position[bond.i],
           q.segment<6>(6 * bond.i),
           q.segment<6>(6 * bond.j)};
@@ -21,9 +23,8 @@ BondIncrement ImplicitStep::increment(const Frame& frame, const Contact& bond, c
 void ImplicitStep::foresee(const Frame& frame, const VectorXd& q) {
   bonds_.clear();
   for (const Contact& bond : frame.contacts)
-    bonds_.push_back(foreseen(bond, laws_(bond.i, bond.j), {radius_[bond.i], radius_[bond.j], length_, length_},
-                              frame.position[bond.j] - frame.position[bond.i], q.segment<6>(6 * bond.i),
-                              q.segment<6>(6 * bond.j)));
+    bonds_.push_back(foreseen(bond, laws_(bond.i, bond.j), ends(bond), frame.position[bond.j] - frame.position[bond.i],
+                              q.segment<6>(6 * bond.i), q.segment<6>(6 * bond.j)));
 }
 
 double ImplicitStep::bond_energy(const Frame& frame, const VectorXd& q) const {

@@ -42,6 +42,7 @@ class ImplicitStep {
   Eigen::MatrixXd matrix_;
   Eigen::VectorXd gradient_, correction_, dragged_, dragged_correction_, trial_;
 
+  BondEnds ends(const Contact& bond) const;
   BondIncrement increment(const Frame& frame, const Contact& bond, const Eigen::VectorXd& q) const;
   void foresee(const Frame& frame, const Eigen::VectorXd& q);
   double bond_energy(const Frame& frame, const Eigen::VectorXd& q) const;
