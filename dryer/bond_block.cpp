@@ -17,7 +17,7 @@ double farthest(double limit, double stiffness) { return stiffness == 0 ? 0 : st
 
 void MotionBlock::resize(std::size_t count) {
   position.assign(count, {});
-  rotation.assign(count, {});
+  moved.assign(count, {});
 }
 
 template <class Visit>
@@ -109,6 +109,8 @@ void BondBlock::remove(std::size_t bond) {
   if (bond == --count_) return;
   unlink_both(count_);
   each_array([&](auto& array) { array[bond] = array[count_]; });
+  if (end_of(count_, 1) < std::ssize(loads_))
+    for (const std::size_t side : {0, 1}) loads_[end_of(bond, side)] = loads_[end_of(count_, side)];
   link(i_[bond], end_of(bond, 0));
   link(j_[bond], end_of(bond, 1));
 }
@@ -175,8 +177,8 @@ void BondBlock::move(std::size_t b, const MotionBlock& motion, Extremes& extreme
   const V D = from_rows([&](std::size_t l) __attribute__((always_inline)) {
     return in_single(load(motion.position[j[l]]) - load(motion.position[i[l]]));
   });
-  const V Wi = from_rows([&](std::size_t l) __attribute__((always_inline)) { return load(motion.rotation[i[l]]); });
-  const V Wj = from_rows([&](std::size_t l) __attribute__((always_inline)) { return load(motion.rotation[j[l]]); });
+  const V Wi = from_rows([&](std::size_t l) __attribute__((always_inline)) { return load_rotation(motion.moved[i[l]]); });
+  const V Wj = from_rows([&](std::size_t l) __attribute__((always_inline)) { return load_rotation(motion.moved[j[l]]); });
   const V W = Wj - Wi;
   const Lane a_i = constant(radius_i), a_j = constant(radius_j), reach = constant(sum_of_radii);
   const Lane squared = dot(D, D), inverse = squared.rsqrt(), distance = squared * inverse;
@@ -216,17 +218,15 @@ void BondBlock::move(std::size_t b, const MotionBlock& motion, Extremes& extreme
   const V M = (-holds * constant(k_t) * twisting) * n - (holds * constant(k_r)) * rolling;
   const V turn = stretch * cross(n, F), force = F - tension * n, on_i = Lane::Constant(-1) * (M + a_i * turn),
           on_j = M - a_j * turn;
-  Loads& loads = loads_[b / lanes];
-  to_rows(force, loads.force.data());
-  to_rows(on_i, loads.torque.data());
-  to_rows(on_j, loads.torque.data() + lanes);
+  to_rows(Lane::Constant(-1) * force, on_i, &loads_[2 * b]);
+  to_rows(force, on_j, &loads_[2 * b + lanes]);
   write(&holds_[b], holds);
   extremes.holding = extremes.holding.min(holds);
   extremes.deepest = extremes.deepest.max(-gap * constant(inverse_radius));
 }
 
 void BondBlock::advance(const MotionBlock& motion) {
-  loads_.resize(padded(count_) / lanes);
+  loads_.resize(2 * padded(count_));
   Extremes all;
   if (count_ < many) {
     for (std::size_t b = 0; b < count_; b += lanes) move(b, motion, all);

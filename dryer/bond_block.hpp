@@ -16,14 +16,14 @@ namespace crumble {
 // are differences of them; everything else is a small number of its own.
 struct MotionBlock {
   std::vector<DoubleRow> position;  // m
-  std::vector<Row> rotation;        // rotation vector since the bonds were last advanced, rad
+  std::vector<SixRow> moved;        // since the bonds were last advanced, m and rad; of it, bonds read the rotation
 
   void resize(std::size_t count);
 };
 
 // The same law as advance(Contact&, ...) of common/agglomerate/bond.hpp, which is its reference: histories carried with
 // the co-rotating frame, increased at the mid normal, capped. Only the normal law of JKR. Rotations of one step must be
-// small (their cubes are neglected). Single precision: loads are good to 1e-5 of the pull-off force.
+// small (their cubes are neglected). Single precision: loads are good to 2e-4 of the pull-off force (test).
 class BondBlock {
  public:
   std::size_t size() const { return count_; }
@@ -38,11 +38,8 @@ class BondBlock {
   // Moves all bonds to the positions of the block and finds their loads. Bonds that are beyond their reach pull no more
   // and are listed in lost(), ascending.
   void advance(const MotionBlock& motion);
-  // What the bonds do to a place, N and N m.
-  struct Load {
-    Quad force, torque;
-  };
-  Load load_on(std::size_t place) const;
+  // Force and torque of the bonds on a place, N and N m.
+  Six load_on(std::size_t place) const;
 
   // For stability: how stiff the bonds of a place are, sums over them of
   //   2 k_n nn + 3.5 k_s (I - nn), 3.5 k_s (I - nn) and 2 max(k_r, k_t),   N/m, N/m and N m.
@@ -60,11 +57,6 @@ class BondBlock {
   std::int32_t second(std::size_t bond) const { return j_[bond]; }
 
  private:
-  // Forces on j of the bonds of a register, and torques on both ends: on i, then on j.
-  struct alignas(64) Loads {
-    std::array<Row, lanes> force;
-    std::array<Row, 2 * lanes> torque;
-  };
   // An end of a bond: register, side (0: i, 1: j) and row in one number.
   static std::int32_t end_of(std::size_t bond, std::size_t side) {
     return static_cast<std::int32_t>(bond / lanes * (2 * lanes) + side * lanes + row_of(bond % lanes));
@@ -103,7 +95,7 @@ class BondBlock {
   std::vector<float> twisting_, gap_, lost_gap_;
   std::array<std::vector<float>, constant_count> constants_;
   bool uniform_ = true;  // all bonds have the same constants
-  std::vector<Loads> loads_;
+  std::vector<SixRow> loads_;  // of bonds on places; index: end
   std::vector<float> holds_;  // 1; 0 if the bond is beyond its reach
   std::vector<float> slope_;  // of the normal force, N/m
   Lane deepest_ = Lane::Zero();
@@ -118,16 +110,10 @@ class BondBlock {
 };
 
 // In the order of its links: the same bits, however many threads ask.
-inline BondBlock::Load BondBlock::load_on(std::size_t place) const {
-  static constexpr float sign[2] = {-1, 1};  // looked up, since a branch would be guessed wrong half of the time
-  Load sum{};
+inline Six BondBlock::load_on(std::size_t place) const {
+  Six sum{};
   const std::int32_t* links = links_.data() + place * capacity_;
-  for (std::int32_t k = 0; k < degree_[place]; ++k) {
-    const auto end = static_cast<std::size_t>(links[k]), side = end / lanes % 2;
-    const Loads& loads = loads_[end / (2 * lanes)];
-    sum.force += all(sign[side]) * load(loads.force[end % lanes]);
-    sum.torque += load(loads.torque[end % (2 * lanes)]);
-  }
+  for (std::int32_t k = 0; k < degree_[place]; ++k) sum += load(loads_[static_cast<std::size_t>(links[k])]);
   return sum;
 }
 

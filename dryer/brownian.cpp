@@ -112,7 +112,7 @@ void Brownian::gather() {
   block_.radius_in_single.assign(padded(count), 0);
   block_.pull.assign(padded(count), 0);
   for (auto* array : {&block_.drag[0], &block_.drag[1], &block_.noise[0], &block_.noise[1]}) array->resize(count);
-  for (auto& array : block_.ahead) array.resize(count);
+  block_.ahead.resize(count);
   for (std::size_t m = 0; m < fast_.size(); ++m) {
     const auto p = static_cast<std::int32_t>(fast_[m]);
     const bool dry = is_dry(p);
@@ -126,8 +126,7 @@ void Brownian::gather() {
     block_.radius[m] = radius[p];
     block_.radius_in_single[m] = static_cast<float>(radius[p]);
     motion_.position[m] = double_row(f.position[p]);
-    block_.ahead[0][m] = row(ahead_[p].head<3>());
-    block_.ahead[1][m] = row(ahead_[p].tail<3>());
+    block_.ahead[m] = six_row(ahead_[p]);
   }
   bonds_.clear(fast_.size());
   for (const Contact& bond : f.contacts) add_bond(bond, place_[bond.i], place_[bond.j]);
@@ -167,35 +166,31 @@ void Brownian::fast_step(int step) {
 
 // Moves to where the contacts live, half of this step's noise beyond y, and keeps the other half for later.
 void Brownian::predict(int step) {
-  const auto move = [&](std::size_t m, Quad half, Quad half_turn) {
-    store(motion_.position[m], load(motion_.position[m]) + in_double(load(block_.ahead[0][m]) + half));
-    store(motion_.rotation[m], load(block_.ahead[1][m]) + half_turn);
-    store(block_.ahead[0][m], half);
-    store(block_.ahead[1][m], half_turn);
+  const auto move = [&](std::size_t m, Six half) {
+    const Six way = load(block_.ahead[m]) + half;
+    store(motion_.position[m], load(motion_.position[m]) + in_double(translation(way)));
+    store(motion_.moved[m], way);
+    store(block_.ahead[m], half);
   };
   const std::size_t stride = padded(noisy_);
   const float* dW = noise_.data() + static_cast<std::size_t>(step) * 6 * stride;
   for (std::size_t first = 0; first < noisy_; first += lanes) {
     const auto component = [&](std::size_t k) { return read(dW + k * stride + first); };
-    Row noise[2][lanes];
-    to_rows({component(0), component(1), component(2)}, noise[0]);
-    to_rows({component(3), component(4), component(5)}, noise[1]);
+    SixRow noise[lanes];
+    to_rows({component(0), component(1), component(2)}, {component(3), component(4), component(5)}, noise);
     for (std::size_t m = first; m < std::min(first + lanes, noisy_); ++m) {
-      const std::size_t l = row_of(m - first);
-      move(m, all(block_.noise[0][m]) * load(noise[0][l]), all(block_.noise[1][m]) * load(noise[1][l]));
+      move(m, six(all(block_.noise[0][m]), all(block_.noise[1][m])) * load(noise[row_of(m - first)]));
     }
   }
-  for (std::size_t m = noisy_; m < fast_.size(); ++m) move(m, Quad{}, Quad{});
+  for (std::size_t m = noisy_; m < fast_.size(); ++m) move(m, Six{});
 }
 
 // Adds the way that the loads push within the step.
 void Brownian::push() {
   surface();
   for (std::size_t m = 0; m < fast_.size(); ++m) {
-    const auto [force, torque] = bonds_.load_on(m);
-    const Quad total = force + all(block_.pull[m]) * in_single(load(motion_.position[m]));
-    store(block_.ahead[0][m], load(block_.ahead[0][m]) + all(block_.drag[0][m]) * total);
-    store(block_.ahead[1][m], load(block_.ahead[1][m]) + all(block_.drag[1][m]) * torque);
+    const Six loads = bonds_.load_on(m) + six(all(block_.pull[m]) * in_single(load(motion_.position[m])), Quad{});
+    store(block_.ahead[m], load(block_.ahead[m]) + six(all(block_.drag[0][m]), all(block_.drag[1][m])) * loads);
   }
 }
 
@@ -267,7 +262,7 @@ void Brownian::put_back() {
   for (std::size_t m = 0; m < fast_.size(); ++m) {
     const std::uint32_t p = fast_[m];
     f.position[p] = vector(motion_.position[m]);
-    ahead_[p] << vector(block_.ahead[0][m]), vector(block_.ahead[1][m]);
+    ahead_[p] = vector(block_.ahead[m]);
   }
   f.contacts.resize(bonds_.size());
   for (std::size_t b = 0; b < bonds_.size(); ++b) {

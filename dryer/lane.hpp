@@ -61,15 +61,28 @@ inline Lane to_lane(const Register& value) {
 
 }  // namespace in_lanes
 
-// Three numbers of each of 16 to rows, number l to row row_of(l).
-inline void to_rows(const LaneVector& v, Row* rows) {
+// Three numbers of each of 16 in quarters of four registers, number l in quarter row_of(l).
+inline std::array<in_lanes::Register, 4> to_quarters(const LaneVector& v) {
   using namespace in_lanes;
   const Register x = from_lane(v.x), y = from_lane(v.y), z = from_lane(v.z), none{};
   const Register xy_low = interleave_low(x, y), xy_high = interleave_high(x, y), z_low = interleave_low(z, none),
                  z_high = interleave_high(z, none);
-  const Register row[4] = {low_halves(xy_low, z_low), high_halves(xy_low, z_low), low_halves(xy_high, z_high),
-                           high_halves(xy_high, z_high)};
-  std::memcpy(rows->at, row, sizeof(row));
+  return {low_halves(xy_low, z_low), high_halves(xy_low, z_low), low_halves(xy_high, z_high),
+          high_halves(xy_high, z_high)};
+}
+
+// Twice three numbers of each of 16 to rows, number l to row row_of(l).
+inline void to_rows(const LaneVector& translation, const LaneVector& rotation, SixRow* rows) {
+  using in_lanes::Register;
+  const auto first = to_quarters(translation), second = to_quarters(rotation);
+  for (std::size_t r = 0; r < 4; ++r) {
+    const Register& p = first[r];
+    const Register& q = second[r];
+    const Register row[2] = {
+        __builtin_shufflevector(p, q, 0, 1, 2, 3, 16, 17, 18, 19, 4, 5, 6, 7, 20, 21, 22, 23),
+        __builtin_shufflevector(p, q, 8, 9, 10, 11, 24, 25, 26, 27, 12, 13, 14, 15, 28, 29, 30, 31)};
+    std::memcpy(rows[4 * r].at, row, sizeof(row));
+  }
 }
 
 // Sixteen rows to registers; row(l) is that of number l.

@@ -1,4 +1,5 @@
-// Three numbers in a register of four: what is kept of a particle or a bond where very many short steps are taken.
+// Three numbers in a register of four, or twice three in one of eight: what is kept of a particle or a bond where very
+// many short steps are taken.
 #pragma once
 
 #include <cstring>
@@ -9,6 +10,8 @@ namespace crumble {
 
 using Quad = float __attribute__((vector_size(16)));
 using DoubleQuad = double __attribute__((vector_size(32)));
+// A translation and a rotation, or a force and a torque.
+using Six = float __attribute__((vector_size(32)));
 
 // Rows as they stand in memory; the fourth number is 0.
 struct alignas(16) Row {
@@ -16,6 +19,9 @@ struct alignas(16) Row {
 };
 struct alignas(32) DoubleRow {
   double at[4] = {};
+};
+struct alignas(32) SixRow {
+  float at[8] = {};  // x, y, z, 0 of the translation, then of the rotation
 };
 
 inline Quad load(const Row& row) {
@@ -30,15 +36,38 @@ inline DoubleQuad load(const DoubleRow& row) {
   return value;
 }
 inline void store(DoubleRow& row, DoubleQuad value) { std::memcpy(row.at, &value, sizeof(value)); }
+inline Six load(const SixRow& row) {
+  Six value;
+  std::memcpy(&value, row.at, sizeof(value));
+  return value;
+}
+inline void store(SixRow& row, Six value) { std::memcpy(row.at, &value, sizeof(value)); }
+inline Quad load_rotation(const SixRow& row) {
+  Quad value;
+  std::memcpy(&value, row.at + 4, sizeof(value));
+  return value;
+}
 
 inline Quad in_single(DoubleQuad value) { return __builtin_convertvector(value, Quad); }
 inline DoubleQuad in_double(Quad value) { return __builtin_convertvector(value, DoubleQuad); }
 
 inline Quad all(float value) { return Quad{value, value, value, value}; }
-inline Row row(const Vector3& v) {
-  return {{static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]), 0}};
+inline Six six(Quad translation, Quad rotation) {
+  return __builtin_shufflevector(translation, rotation, 0, 1, 2, 3, 4, 5, 6, 7);
 }
-inline Vector3 vector(const Row& row) { return {row.at[0], row.at[1], row.at[2]}; }
+inline Quad translation(Six value) { return __builtin_shufflevector(value, value, 0, 1, 2, 3); }
+inline Quad rotation(Six value) { return __builtin_shufflevector(value, value, 4, 5, 6, 7); }
+inline SixRow six_row(const Vector6& v) {
+  SixRow row;
+  for (int k = 0; k < 3; ++k) {
+    row.at[k] = static_cast<float>(v[k]);
+    row.at[4 + k] = static_cast<float>(v[3 + k]);
+  }
+  return row;
+}
+inline Vector6 vector(const SixRow& row) {
+  return (Vector6() << row.at[0], row.at[1], row.at[2], row.at[4], row.at[5], row.at[6]).finished();
+}
 inline DoubleRow double_row(const Vector3& v) { return {{v[0], v[1], v[2], 0}}; }
 inline Vector3 vector(const DoubleRow& row) { return {row.at[0], row.at[1], row.at[2]}; }
 

@@ -132,10 +132,7 @@ void Stabilised::gather() {
   const Frame& f = state_.state;
   const std::size_t count = chosen_.size();
   motion_.resize(count);
-  for (int k = 0; k < 2; ++k) {
-    drag_[k].resize(count);
-    ahead_[k].assign(count, {});
-  }
+  for (auto& drag : drag_) drag.resize(count);
   radius_.assign(padded(count), 0);
   for (std::size_t m = 0; m < count; ++m) {
     const double a = state_.particles.radius[chosen_[m]];
@@ -221,9 +218,9 @@ void Stabilised::stabilised_step(double latest_time) {
   bool within_limit = true;
   while (done < stages && within_limit) {
     bonds_.advance(motion_);
+    lose();
     push(method.stage[done], dt, front_.radius(f.time + method.stage[done].time * dt));
     ++done;
-    lose();
     within_limit = meet(closest_, limit);
     if (done % look == 0 && done + look / 2 < stages) {
       bonds_.find_stiffness();
@@ -258,8 +255,7 @@ void Stabilised::push(const Chebyshev::Stage& stage, double dt, double R) {
 void Stabilised::push_some(std::size_t first, const Chebyshev::Stage& stage, double dt, double R) {
   const std::size_t count = std::min(lanes, chosen_.size() - first);
   DoubleRow* position = motion_.position.data() + first;
-  Row *rotation = motion_.rotation.data() + first, *ahead = ahead_[0].data() + first,
-      *turn_ahead = ahead_[1].data() + first;
+  SixRow* moved = motion_.moved.data() + first;
   const float *drag = drag_[0].data() + first, *turning_drag = drag_[1].data() + first;
   // Of the surface, over the distance from the centre: Eq. 8 with r - R as a difference of squares, for its digits.
   Lane excess = Lane::Zero();
@@ -277,17 +273,13 @@ void Stabilised::push_some(std::size_t first, const Chebyshev::Stage& stage, dou
   alignas(64) float pull[lanes];
   write(pull, sigma * squared.sqrt() / r.max(1e-6f * front + 1e-30f));
 
-  const Quad memory = all(static_cast<float>(stage.memory));
-  const float push = static_cast<float>(stage.push * dt);
+  const auto memory = static_cast<float>(stage.memory), push = static_cast<float>(stage.push * dt);
   for (std::size_t l = 0; l < count; ++l) {
-    const auto [force, torque] = bonds_.load_on(first + l);
     const DoubleQuad x = load(position[l]);
-    const Quad way = memory * load(ahead[l]) + all(push * drag[l]) * (force + all(pull[l]) * in_single(x));
-    const Quad turn = memory * load(turn_ahead[l]) + all(push * turning_drag[l]) * torque;
-    store(ahead[l], way);
-    store(turn_ahead[l], turn);
-    store(position[l], x + in_double(way));
-    store(rotation[l], turn);
+    const Six loads = bonds_.load_on(first + l) + six(all(pull[l]) * in_single(x), Quad{});
+    const Six way = memory * load(moved[l]) + six(all(push * drag[l]), all(push * turning_drag[l])) * loads;
+    store(moved[l], way);
+    store(position[l], x + in_double(translation(way)));
   }
 }
 
@@ -298,7 +290,7 @@ void Stabilised::lose() {
     const std::int32_t i = bonds_.first(bond), j = bonds_.second(bond);
     closest_.push_back({i, j});
     // What the bond has left of motion is the method's, not theirs: nothing would stop it.
-    for (auto& ahead : ahead_) ahead[i] = ahead[j] = {};
+    motion_.moved[i] = motion_.moved[j] = {};
     bonds_.remove(bond);
     ++statistics_.contacts_lost;
   }

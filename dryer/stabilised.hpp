@@ -53,9 +53,8 @@ class Stabilised : public Integrator {
   std::vector<std::int32_t> chosen_, place_;
   std::vector<float> drag_[2];  // 1/zeta, 1/zeta_r
   std::vector<float> radius_;
-  std::vector<Row> ahead_[2];  // increments of the last evaluation, m and rad
   std::vector<DoubleRow> origin_, before_;
-  MotionBlock motion_;
+  MotionBlock motion_;  // its ways are the increments of the last evaluation
   BondBlock bonds_;
   std::vector<Pair> open_pairs_, closest_;  // places that may meet within the step, and within a stabilised step
   std::vector<double> moves_;
