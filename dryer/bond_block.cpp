@@ -26,7 +26,7 @@ void BondBlock::each_array(Visit visit) {
   visit(born_);
   for (auto* triple : {&apart_, &normal_, &sliding_, &rolling_})
     for (auto& array : *triple) visit(array);
-  for (auto* scalar : {&twisting_, &gap_, &lost_gap_, &holds_, &slope_}) visit(*scalar);
+  for (auto* scalar : {&twisting_, &gap_, &lost_gap_, &holds_, &slope_, &remembered_}) visit(*scalar);
   for (auto& array : constants_) visit(array);
 }
 
@@ -77,6 +77,7 @@ void BondBlock::add(const Contact& bond, std::int32_t i, std::int32_t j, const B
   put(lost_gap_, lost_gap);
   put(holds_, 1);
   put(slope_, law.jkr.state(bond.gap).stiffness);
+  put(remembered_, -1);
   const std::array<double, constant_count> value = {a_i,
                                                     a_j,
                                                     a_i + a_j,
@@ -171,9 +172,7 @@ inline __attribute__((always_inline)) Lane jkr_root(const Lane& x) {
 // The bonds of one register, in one go from positions to loads: what is needed only in between stays in registers.
 void BondBlock::move(std::size_t b, const MotionBlock& motion, Extremes& extremes) {
   const std::int32_t *i = &i_[b], *j = &j_[b];
-  const auto constant = [&](Constant which) __attribute__((always_inline)) {
-    return uniform_ ? Lane(Lane::Constant(constants_[which][0])) : read(&constants_[which][b]);
-  };
+  const auto constant = [&](Constant which) __attribute__((always_inline)) { return this->constant(which, b); };
   const V D = from_rows([&](std::size_t l) __attribute__((always_inline)) {
     return in_single(load(motion.position[j[l]]) - load(motion.position[i[l]]));
   });
@@ -252,12 +251,9 @@ void BondBlock::advance(const MotionBlock& motion) {
 
 // dN/dh = 9 F_po/L c^2 (2 c^3 - 1)/(6 c^3 - 1), c of jkr_root.
 Lane BondBlock::slope(std::size_t b) const {
-  const auto constant = [&](Constant which) {
-    return uniform_ ? Lane(Lane::Constant(constants_[which][0])) : read(&constants_[which][b]);
-  };
-  const Lane scale = constant(inverse_length), root = jkr_root(read(&gap_[b]).min(read(&lost_gap_[b])) * scale),
+  const Lane scale = constant(inverse_length, b), root = jkr_root(read(&gap_[b]).min(read(&lost_gap_[b])) * scale),
              cubed = root * root * root;
-  return (9 * constant(pull_off) * scale * root * root * (2 * cubed - 1) / (6 * cubed - 1)).max(0);
+  return (9 * constant(pull_off, b) * scale * root * root * (2 * cubed - 1) / (6 * cubed - 1)).max(0);
 }
 
 void BondBlock::find_stiffness() {
@@ -265,17 +261,45 @@ void BondBlock::find_stiffness() {
   for (std::size_t b = 0; b < count_; b += lanes) write(&slope_[b], slope(b));
 }
 
-BondBlock::Stiffness BondBlock::stiffness_on(std::size_t place) const {
+// The law of move() to first order in the ways.
+void BondBlock::move_as_springs(std::size_t b, const std::vector<SixRow>& ways) {
+  const std::int32_t *i = &i_[b], *j = &j_[b];
+  const V U = from_rows([&](std::size_t l) { return translation(load(ways[j[l]])) - translation(load(ways[i[l]])); });
+  const V Wi = from_rows([&](std::size_t l) { return load_rotation(ways[i[l]]); });
+  const V Wj = from_rows([&](std::size_t l) { return load_rotation(ways[j[l]]); });
+  const V n = read_vector(normal_, b), W = Wj - Wi;
+  const Lane a_i = constant(radius_i, b), a_j = constant(radius_j, b), apart = dot(n, U), twist = dot(n, W);
+  const V F = (-constant(k_s, b)) * (U - apart * n - cross(a_i * Wi + a_j * Wj, n));
+  const V M = (-constant(k_t, b) * twist) * n - constant(k_r, b) * (W - twist * n);
+  const V turn = cross(n, F), force = F - (read(&slope_[b]) * apart) * n;
+  to_rows(Lane::Constant(-1) * force, Lane::Constant(-1) * (M + a_i * turn), &loads_[2 * b]);
+  to_rows(force, M - a_j * turn, &loads_[2 * b + lanes]);
+}
+
+void BondBlock::respond(const std::vector<SixRow>& ways) {
+  loads_.resize(2 * padded(count_));
+#pragma omp parallel for schedule(static) if (count_ >= many)
+  for (std::size_t b = 0; b < count_; b += lanes) move_as_springs(b, ways);
+}
+
+void BondBlock::remember_stiffness() { std::copy_n(slope_.begin(), count_, remembered_.begin()); }
+
+BondBlock::Stiffness BondBlock::stiffening_on(std::size_t place) const {
   Stiffness sum;
   const std::int32_t* links = links_.data() + place * capacity_;
   for (std::int32_t k = 0; k < degree_[place]; ++k) {
     const auto end = static_cast<std::size_t>(links[k]);
     const std::size_t b = end / (2 * lanes) * lanes + row_of(end % lanes), c = uniform_ ? 0 : b;
+    const bool fresh = remembered_[b] < 0;
+    const float stiffer = slope_[b] - std::max(remembered_[b], 0.0f);
+    if (!fresh && stiffer <= 0) continue;
     const Eigen::Vector3f n(normal_[0][b], normal_[1][b], normal_[2][b]);
     const Eigen::Matrix3f nn = n * n.transpose();
+    sum.displacing += 2 * stiffer * nn;
+    if (!fresh) continue;
     const Eigen::Matrix3f across = 3.5f * constants_[k_s][c] * (Eigen::Matrix3f::Identity() - nn);
     sum.across += across;
-    sum.displacing += across + 2 * slope_[b] * nn;
+    sum.displacing += across;
     sum.turning += 2 * std::max(constants_[k_r][c], constants_[k_t][c]);
   }
   return sum;

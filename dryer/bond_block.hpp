@@ -41,15 +41,20 @@ class BondBlock {
   // Force and torque of the bonds on a place, N and N m.
   Six load_on(std::size_t place) const;
 
-  // For stability: how stiff the bonds of a place are, sums over them of
-  //   2 k_n nn + 3.5 k_s (I - nn), 3.5 k_s (I - nn) and 2 max(k_r, k_t),   N/m, N/m and N m.
-  // k_n, the slope of the normal force, is that of the last find_stiffness() or add().
+  // For stability. The stiffness is that of the last find_stiffness() or add().
+  void find_stiffness();
+  // Loads of the bonds as linear springs, without history, for small ways of the places; in the place of those of
+  // advance().
+  void respond(const std::vector<SixRow>& ways);
+  // By how much the bonds of a place have become stiffer since remember_stiffness(), sums over them of
+  //   2 k_n nn + 3.5 k_s (I - nn), 3.5 k_s (I - nn) and 2 max(k_r, k_t),   N/m, N/m and N m,
+  // with the increase of k_n, the slope of the normal force, and of the others only where the bond is new.
   struct Stiffness {
     Eigen::Matrix3f displacing = Eigen::Matrix3f::Zero(), across = Eigen::Matrix3f::Zero();
     float turning = 0;
   };
-  void find_stiffness();
-  Stiffness stiffness_on(std::size_t place) const;
+  void remember_stiffness();
+  Stiffness stiffening_on(std::size_t place) const;
   const std::vector<std::int32_t>& lost() const { return lost_; }
   double deepest_overlap() const { return deepest_.maxCoeff(); }  // of all steps since clear(), in the pair's radius
 
@@ -61,15 +66,6 @@ class BondBlock {
   static std::int32_t end_of(std::size_t bond, std::size_t side) {
     return static_cast<std::int32_t>(bond / lanes * (2 * lanes) + side * lanes + row_of(bond % lanes));
   }
-  using Triple = std::array<std::vector<float>, 3>;  // a vector a bond, one array a component
-  struct Extremes {
-    Lane holding = Lane::Ones(), deepest = Lane::Zero();
-  };
-  void move(std::size_t first, const MotionBlock& motion, Extremes& extremes);
-  Lane slope(std::size_t first) const;
-  void link(std::int32_t place, std::int32_t end);
-  void unlink(std::int32_t place, std::int32_t end);
-
   // What depends on the pair's radii and the material alone. most: displacement at which a spring yields.
   enum Constant : std::size_t {
     radius_i,
@@ -88,6 +84,20 @@ class BondBlock {
     constant_count
   };
 
+  using Triple = std::array<std::vector<float>, 3>;  // a vector a bond, one array a component
+  struct Extremes {
+    Lane holding = Lane::Ones(), deepest = Lane::Zero();
+  };
+  void move(std::size_t first, const MotionBlock& motion, Extremes& extremes);
+  void move_as_springs(std::size_t first, const std::vector<SixRow>& ways);
+  Lane constant(Constant which, std::size_t first) const {
+    return uniform_ ? Lane(Lane::Constant(constants_[which][0])) : read(&constants_[which][first]);
+  }
+  Lane slope(std::size_t first) const;
+  void link(std::int32_t place, std::int32_t end);
+  void unlink(std::int32_t place, std::int32_t end);
+
+
   std::size_t count_ = 0;
   std::vector<std::int32_t> i_, j_, lost_;
   std::vector<std::int64_t> born_;
@@ -98,6 +108,7 @@ class BondBlock {
   std::vector<SixRow> loads_;  // of bonds on places; index: end
   std::vector<float> holds_;  // 1; 0 if the bond is beyond its reach
   std::vector<float> slope_;  // of the normal force, N/m
+  std::vector<float> remembered_;  // slope; less than 0 where the bond is new
   Lane deepest_ = Lane::Zero();
 
   // The ends of bonds at each place: capacity_ entries a place, of which degree_ are in use.

@@ -15,12 +15,10 @@ namespace crumble {
 
 namespace {
 
-// In the smallest radius: how near pairs must be to be looked at within a step(), and in the list of all.
-constexpr double near = 0.2, skin = 0.5;
 // Of the front within a step(), in the largest displacement of a stabilised step.
 constexpr double steps_in_one = 8;
-// Room for bonds that are made or pressed within a stabilised step.
-constexpr double room = 1.2;
+// Within a stabilised step there is room for a bond more on every particle, and for bonds pressed to so much more.
+constexpr double room = 0.05;
 // Evaluations from one look at the stiffness to the next.
 constexpr int look = 64;
 // From so many on, several threads are worth it.
@@ -45,7 +43,7 @@ std::uint64_t morton(const Vector3& x, double width) {
 }  // namespace
 
 Stabilised::Stabilised(const DryingModel& model, Agglomerate& state, const StabilisedControl& control)
-    : Integrator(model, state, skin), control_(control), place_(state.particles.size(), -1) {
+    : Integrator(model, state, control.skin()), control_(control), place_(state.particles.size(), -1) {
   if (model.contact.normal != NormalLaw::jkr) throw std::invalid_argument("stabilised steps know the JKR law only");
   if (model.thermal_energy > 0) throw std::invalid_argument("stabilised steps know no Brownian motion");
   state.state.velocity.resize(state.particles.size(), Vector3::Zero());
@@ -73,7 +71,8 @@ void Stabilised::step(double latest_time) {
   meet(open_pairs_, 0);
   while (f.time < end) {
     stabilised_step(end);
-    if (displacement(origin_, 0) > 0.5 * near) break;  // more pairs may be near now
+    // Within the next more pairs may come near.
+    if (displacement(origin_, 0) + control_.largest_displacement > 0.5 * control_.near()) break;
   }
   bonds_.advance(motion_);
   lose();
@@ -99,15 +98,15 @@ std::vector<Pair> Stabilised::within(double gap) const {
 void Stabilised::choose(double R_end) {
   Frame& f = state_.state;
   activity_.front_at(R_end);
-  const double a = smallest_radius(), far = 0.5 * (skin - near) * a;
+  const double a = smallest_radius(), far = 0.5 * (control_.skin() - control_.near()) * a;
   bool moved = reference_.empty();
   for (std::size_t p = 0; p < reference_.size() && !moved; ++p)
     moved = !((f.position[p] - reference_[p]).squaredNorm() < far * far);
   if (moved) {
     reference_ = f.position;
-    search_.find(f.position, state_.particles.radius, skin * a, listed_);
+    search_.find(f.position, state_.particles.radius, control_.skin() * a, listed_);
   }
-  std::vector<Pair> pairs = within(near * a);
+  std::vector<Pair> pairs = within(control_.near() * a);
   std::erase_if(pairs, [&](const Pair& p) { return !activity_.is_active(p.i) && !activity_.is_active(p.j); });
   std::vector<std::pair<std::uint64_t, std::int32_t>> order;
   const auto choose_one = [&](std::int32_t p) {
@@ -132,13 +131,13 @@ void Stabilised::gather() {
   const Frame& f = state_.state;
   const std::size_t count = chosen_.size();
   motion_.resize(count);
-  for (auto& drag : drag_) drag.resize(count);
+  mobility_.resize(count);
   radius_.assign(padded(count), 0);
   for (std::size_t m = 0; m < count; ++m) {
     const double a = state_.particles.radius[chosen_[m]];
     motion_.position[m] = double_row(f.position[chosen_[m]]);
-    drag_[0][m] = static_cast<float>(1 / drag_coefficient(model_.viscosity, a));
-    drag_[1][m] = static_cast<float>(1 / rotational_drag_coefficient(model_.viscosity, a));
+    mobility_.translation[m] = static_cast<float>(1 / drag_coefficient(model_.viscosity, a));
+    mobility_.rotation[m] = static_cast<float>(1 / rotational_drag_coefficient(model_.viscosity, a));
     radius_[m] = static_cast<float>(a);
   }
   // In the order of their first place, for the cache.
@@ -147,6 +146,7 @@ void Stabilised::gather() {
     order.emplace_back(std::min(place_[f.contacts[b].i], place_[f.contacts[b].j]), static_cast<std::int32_t>(b));
   std::sort(order.begin(), order.end());
   bonds_.clear(count);
+  known_rate_ = 0;
   for (const auto& [place, b] : order) {
     const Contact& bond = f.contacts[b];
     const BondLaw& law = laws_(bond.i, bond.j);
@@ -155,21 +155,23 @@ void Stabilised::gather() {
   }
 }
 
-// Upper bound of the eigenvalues that belong to a particle, 1/s. The energy of a bond is a square of differences
-// between its ends, and (x - y)^2 <= 2 x^2 + 2 y^2 makes a sum over particles of it: of the displacements with 2 k_n
-// along the normal and 3.5 k_s across it, of the rotations with 3.5 k_s across it, too, rolling and twisting added (3.5
-// = 1 + 1 + 3/4 + 3/4, since zeta_r = 4/3 a^2 zeta).
-double Stabilised::rate_at(std::size_t place, double known) const {
-  const auto [displacing, across, turning] = bonds_.stiffness_on(place);
-  const double a = radius_[place], zeta = drag_[0][place], other = turning / (4.0 / 3.0 * a * a);
+// By how much the eigenvalues that belong to a particle can have grown since stiffness was last remembered, 1/s, an
+// upper bound: the largest eigenvalue of a sum is at most the sum of the largest ones (Weyl), and that of what has been
+// added is found from its energy. The energy of a bond is a square of differences between its ends, and (x - y)^2 <=
+// 2 x^2 + 2 y^2 makes a sum over particles of it: of the displacements with 2 k_n along the normal and 3.5 k_s across
+// it, of the rotations with 3.5 k_s across it, too, rolling and twisting added (3.5 = 1 + 1 + 3/4 + 3/4, since zeta_r =
+// 4/3 a^2 zeta).
+double Stabilised::increase_at(std::size_t place, double known) const {
+  const auto [displacing, across, turning] = bonds_.stiffening_on(place);
+  const double a = radius_[place], mobile = mobility_.translation[place], other = turning / (4.0 / 3.0 * a * a);
   const auto largest = [](const Eigen::Matrix3f& S) {
     Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> solver;
     solver.computeDirect(S, Eigen::EigenvaluesOnly);
     return static_cast<double>(solver.eigenvalues()[2]);
   };
   // The norm is cheaper and not below; most particles are far from the stiffest.
-  double rate = std::max<double>(displacing.norm(), across.norm() + other) * zeta;
-  if (rate > known) rate = std::max(largest(displacing), largest(across) + other) * zeta;
+  double rate = std::max<double>(displacing.norm(), across.norm() + other) * mobile;
+  if (rate > known) rate = std::max(largest(displacing), largest(across) + other) * mobile;
   return rate;
 }
 
@@ -185,8 +187,31 @@ double Stabilised::rate() const {
   double most = 0;
   const std::size_t count = chosen_.size();
 #pragma omp parallel for schedule(static) reduction(max : most) if (count > many)
-  for (std::size_t m = 0; m < count; ++m) most = std::max(most, rate_at(m, most));
-  return most;
+  for (std::size_t m = 0; m < count; ++m) most = std::max(most, increase_at(m, most));
+  return known_rate_ + most;
+}
+
+// Of one bond between the smallest particles: the largest of the terms of increase_at().
+double Stabilised::rate_of_a_bond() const {
+  const double a = smallest_radius();
+  const BondLaw law(model_.contact, model_.material, a, a);
+  return std::max(2 * law.normal_stiffness(), 3.5 * law.k_s) / drag_coefficient(model_.viscosity, a);
+}
+
+// What a step is made stable for, 1/s.
+double Stabilised::limit_of_rate() {
+  const double one = rate_of_a_bond();
+  is_stable(known_rate_ + 0.5 * one);
+  return std::max((1 + room) * rate() + one, 4 * surface_rate());
+}
+
+// Looks closer if what has been added may be too much.
+bool Stabilised::is_stable(double limit) {
+  bonds_.find_stiffness();
+  if (rate() < limit) return true;
+  known_rate_ = relaxation_.bound(bonds_, mobility_);
+  bonds_.remember_stiffness();
+  return known_rate_ < limit;
 }
 
 // Sorts out of the open pairs those that can meet within a stabilised step.
@@ -206,8 +231,7 @@ void Stabilised::part(double gap) {
 
 void Stabilised::stabilised_step(double latest_time) {
   Frame& f = state_.state;
-  bonds_.find_stiffness();
-  const double limit = std::max(room * rate(), 4 * surface_rate()), left = latest_time - f.time;
+  const double limit = limit_of_rate(), left = latest_time - f.time;
   double dt = std::min({next_dt_, left, time_of_travel(control_.largest_displacement)});
   if (left < 1.5 * dt) dt = left;
   const int stages = Chebyshev::stages(dt, limit);
@@ -221,11 +245,11 @@ void Stabilised::stabilised_step(double latest_time) {
     lose();
     push(method.stage[done], dt, front_.radius(f.time + method.stage[done].time * dt));
     ++done;
-    within_limit = meet(closest_, limit);
-    if (done % look == 0 && done + look / 2 < stages) {
-      bonds_.find_stiffness();
-      within_limit = within_limit && rate() < limit;
-    }
+    const bool known = meet(closest_, limit);
+    if (done == stages) break;
+    if (!known || done % look == 0) within_limit = is_stable(limit);
+    // Others than those that are looked at may meet.
+    if (done % look == 0) within_limit = within_limit && displacement(origin_, 0) < 0.5 * control_.near();
   }
   const bool whole = done == stages;
   const double passed = whole ? dt : method.reached[done - 1] * dt;
@@ -256,7 +280,6 @@ void Stabilised::push_some(std::size_t first, const Chebyshev::Stage& stage, dou
   const std::size_t count = std::min(lanes, chosen_.size() - first);
   DoubleRow* position = motion_.position.data() + first;
   SixRow* moved = motion_.moved.data() + first;
-  const float *drag = drag_[0].data() + first, *turning_drag = drag_[1].data() + first;
   // Of the surface, over the distance from the centre: Eq. 8 with r - R as a difference of squares, for its digits.
   Lane excess = Lane::Zero();
   for (std::size_t l = 0; l < count; ++l) {
@@ -277,7 +300,7 @@ void Stabilised::push_some(std::size_t first, const Chebyshev::Stage& stage, dou
   for (std::size_t l = 0; l < count; ++l) {
     const DoubleQuad x = load(position[l]);
     const Six loads = bonds_.load_on(first + l) + six(all(pull[l]) * in_single(x), Quad{});
-    const Six way = memory * load(moved[l]) + six(all(push * drag[l]), all(push * turning_drag[l])) * loads;
+    const Six way = memory * load(moved[l]) + push * mobility_.of(first + l) * loads;
     store(moved[l], way);
     store(position[l], x + in_double(translation(way)));
   }
@@ -296,8 +319,8 @@ void Stabilised::lose() {
   }
 }
 
-// Bonds what touches among the pairs and takes it from them. False if that makes a particle stiffer than `most`, 1/s.
-bool Stabilised::meet(std::vector<Pair>& pairs, double most) {
+// Bonds what touches among the pairs and takes it from them. False if that may have brought the rate over the limit.
+bool Stabilised::meet(std::vector<Pair>& pairs, double limit) {
   const auto touch = [&](const Pair& pair) {
     const Quad D = in_single(load(motion_.position[pair.j]) - load(motion_.position[pair.i]));
     const float reach = radius_[pair.i] + radius_[pair.j];
@@ -330,7 +353,7 @@ bool Stabilised::meet(std::vector<Pair>& pairs, double most) {
     const Vector3 D = vector(motion_.position[j]) - vector(motion_.position[i]);
     bonds_.add(make_bond(law, p, other, D, a_p, a_q, state_.state.step), i, j, law, a_p, a_q, law.lost_gap());
     for (const std::int32_t place : {i, j})
-      within_limit = within_limit && rate_at(static_cast<std::size_t>(place), most) < most;
+      within_limit = within_limit && known_rate_ + increase_at(static_cast<std::size_t>(place), 0) < limit;
     ++statistics_.contacts_made;
   }
   return within_limit;

@@ -5,11 +5,16 @@
 #include "dryer/bond_block.hpp"
 #include "dryer/chebyshev.hpp"
 #include "dryer/integrator.hpp"
+#include "dryer/relaxation_rate.hpp"
 
 namespace crumble {
 
 struct StabilisedControl {
   double largest_displacement = 0.02;  // of a particle in one stabilised step, in its radius
+  // How near pairs must be to be looked at within a step(), in the smallest radius.
+  double near() const { return std::max(0.2, 4 * largest_displacement); }
+  // The same for the list of all.
+  double skin() const { return near() + 0.3; }
 };
 
 // dx/dt = F/zeta and the same for rotations by the method of chebyshev.hpp: as many evaluations a step as the stiffest
@@ -33,13 +38,16 @@ class Stabilised : public Integrator {
   void gather();
   void put_back(double begin);
   void stabilised_step(double latest_time);
+  double limit_of_rate();
+  bool is_stable(double limit);
   double rate() const;
-  double rate_at(std::size_t place, double known) const;
+  double increase_at(std::size_t place, double known) const;
+  double rate_of_a_bond() const;
   double surface_rate() const;
   void part(double gap);
   void push(const Chebyshev::Stage& stage, double dt, double R);
   void push_some(std::size_t first, const Chebyshev::Stage& stage, double dt, double R);
-  bool meet(std::vector<Pair>& pairs, double most);
+  bool meet(std::vector<Pair>& pairs, double limit);
   void lose();
   double displacement(const std::vector<DoubleRow>& from, double quantile);
   double time_of_travel(double radii) const;
@@ -51,7 +59,9 @@ class Stabilised : public Integrator {
   std::vector<Pair> listed_;        // all pairs within the skin of where their particles were, sorted
   std::vector<Vector3> reference_;  // there
   std::vector<std::int32_t> chosen_, place_;
-  std::vector<float> drag_[2];  // 1/zeta, 1/zeta_r
+  Mobility mobility_;
+  RelaxationRate relaxation_;
+  double known_rate_ = 0;  // bound for the bonds as they were when their stiffness was last remembered, 1/s
   std::vector<float> radius_;
   std::vector<DoubleRow> origin_, before_;
   MotionBlock motion_;  // its ways are the increments of the last evaluation

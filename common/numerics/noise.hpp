@@ -19,7 +19,8 @@ enum class Purpose : std::uint32_t {
   brownian_path,
   radius,
   orientation,
-  brownian_path_rest
+  brownian_path_rest,
+  eigenvector
 };
 
 inline constexpr const char* rng_name = "Philox4x32-10 (Random123)";

@@ -1,0 +1,95 @@
+#include "dryer/relaxation_rate.hpp"
+
+#include <Eigen/Eigenvalues>
+
+#include <cmath>
+
+#include "common/numerics/noise.hpp"
+
+namespace crumble {
+
+namespace {
+
+constexpr int steps = 48;
+constexpr double failure = 1e-9;
+
+// Sum over places in the same order on any number of threads.
+template <class Term>
+double sum(std::size_t places, Term term) {
+  constexpr std::size_t piece = 1024;
+  std::vector<double> part((places + piece - 1) / piece);
+#pragma omp parallel for schedule(static)
+  for (std::size_t k = 0; k < part.size(); ++k) {
+    double own = 0;
+    for (std::size_t m = k * piece; m < std::min((k + 1) * piece, places); ++m) own += term(m);
+    part[k] = own;
+  }
+  double total = 0;
+  for (const double own : part) total += own;
+  return total;
+}
+
+double dot(Six u, Six v) {
+  const Six w = u * v;
+  return static_cast<double>(w[0] + w[1] + w[2]) + static_cast<double>(w[4] + w[5] + w[6]);
+}
+
+}  // namespace
+
+void Mobility::resize(std::size_t count) {
+  translation.resize(count);
+  rotation.resize(count);
+}
+
+// In displacements and rotations u, in which the matrix mobility times stiffness is symmetric under the product
+// <u, v> = sum u v/mobility.
+double RelaxationRate::bound(BondBlock& bonds, const Mobility& mobility) {
+  const std::size_t places = mobility.translation.size();
+  if (bonds.size() == 0) return 0;
+  way_.resize(places);
+  before_.assign(places, {});
+  const auto norm = [&](const std::vector<SixRow>& u) {
+    return std::sqrt(sum(places, [&](std::size_t m) { return dot(load(u[m]) / mobility.of(m), load(u[m])); }));
+  };
+  const auto scale = [&](std::vector<SixRow>& u, double factor) {
+#pragma omp parallel for schedule(static)
+    for (std::size_t m = 0; m < places; ++m) store(u[m], static_cast<float>(factor) * load(u[m]));
+  };
+#pragma omp parallel for schedule(static)
+  for (std::size_t m = 0; m < places; ++m) {
+    const auto x = random_normals(0, Purpose::eigenvector, static_cast<std::uint32_t>(m), 0),
+               y = random_normals(0, Purpose::eigenvector, static_cast<std::uint32_t>(m), 1);
+    const Six mobile = mobility.of(m);
+    const double way = std::sqrt(mobile[0]), turn = std::sqrt(mobile[4]);
+    way_[m] = six_row((Vector6() << way * x[0], way * x[1], way * x[2], turn * x[3], turn * y[0], turn * y[1]).finished());
+  }
+  scale(way_, 1 / norm(way_));
+
+  Eigen::VectorXd diagonal(steps), beside(steps);
+  int done = 0;
+  for (double beta = 0; done < steps;) {
+    bonds.respond(way_);
+    const double alpha = sum(places, [&](std::size_t m) {
+      const Six response = bonds.load_on(m), own = load(way_[m]);
+      store(before_[m], -mobility.of(m) * response - static_cast<float>(beta) * load(before_[m]));
+      return -dot(response, own);
+    });
+    beta = std::sqrt(sum(places, [&](std::size_t m) {
+      const Six next = load(before_[m]) - static_cast<float>(alpha) * load(way_[m]);
+      store(before_[m], next);
+      return dot(next / mobility.of(m), next);
+    }));
+    diagonal[done] = alpha;
+    beside[done++] = beta;
+    if (!(beta > 1e-5 * alpha)) break;  // all directions that there are
+    scale(before_, 1 / beta);
+    std::swap(way_, before_);
+  }
+  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
+  solver.computeFromTridiagonal(diagonal.head(done), beside.head(done - 1), Eigen::EigenvaluesOnly);
+  const double rows = 6 * static_cast<double>(places),
+               root = std::log(1.648 * std::sqrt(rows) / failure) / (2 * steps - 1);
+  return solver.eigenvalues().maxCoeff() / (1 - root * root);
+}
+
+}  // namespace crumble

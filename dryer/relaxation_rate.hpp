@@ -1,0 +1,32 @@
+// How fast what bonds hold together relaxes: what limits explicit steps.
+#pragma once
+
+#include "dryer/bond_block.hpp"
+
+namespace crumble {
+
+// Mobilities of the particles of a motion block.
+struct Mobility {
+  std::vector<float> translation, rotation;  // 1/zeta, m/(N s); 1/zeta_r, rad/(N m s)
+
+  void resize(std::size_t count);
+  Six of(std::size_t place) const { return six(all(translation[place]), all(rotation[place])); }
+};
+
+// Upper bound of the largest eigenvalue of mobility times stiffness, 1/s: from the largest Ritz value of so many steps
+// of Lanczos from a random start, which is
+//   below (1 - e) times the eigenvalue  with a probability of at most  1.648 sqrt(n) exp(-sqrt(e) (2 steps - 1))
+// for a matrix of n rows. Source: Kuczynski & Wozniakowski 1992, Theorem 4.2. e is chosen such that this is 1e-9.
+//
+// Two vectors are kept, whatever the number of steps; libraries keep all of them, more than the droplet itself needs.
+class RelaxationRate {
+ public:
+  // Of the bonds as find_stiffness() last found them; what they have as loads is lost. On all threads; the same bits on
+  // any number of them.
+  double bound(BondBlock& bonds, const Mobility& mobility);
+
+ private:
+  std::vector<SixRow> way_, before_;
+};
+
+}  // namespace crumble
