@@ -35,7 +35,7 @@ void BondBlock::clear(std::size_t places) {
   each_array([](auto& array) { array.clear(); });
   deepest_.setZero();
   degree_.assign(places, 0);
-  links_.resize(places * capacity_);
+  links_.assign(places * capacity_, 0);
 }
 
 void BondBlock::link(std::int32_t place, std::int32_t end) {
@@ -43,9 +43,11 @@ void BondBlock::link(std::int32_t place, std::int32_t end) {
     const std::size_t places = degree_.size(), before = capacity_;
     capacity_ *= 2;
     links_.resize(places * capacity_);
-    for (std::size_t p = places; p-- > 1;)  // the first stays where it is
-      std::copy_backward(links_.data() + p * before, links_.data() + (p + 1) * before,
-                         links_.data() + p * capacity_ + before);
+    for (std::size_t p = places; p-- > 0;) {
+      std::int32_t* links = links_.data() + p * capacity_;
+      if (p > 0) std::copy_n(links_.data() + p * before, before, links);
+      std::fill(links + before, links + capacity_, 0);
+    }
   }
   links_[static_cast<std::size_t>(place) * capacity_ + static_cast<std::size_t>(degree_[place]++)] = end;
 }
@@ -53,7 +55,7 @@ void BondBlock::link(std::int32_t place, std::int32_t end) {
 void BondBlock::unlink(std::int32_t place, std::int32_t end) {
   std::int32_t* links = links_.data() + static_cast<std::size_t>(place) * capacity_;
   *std::find(links, links + degree_[place], end) = links[degree_[place] - 1];
-  --degree_[place];
+  links[--degree_[place]] = 0;
 }
 
 void BondBlock::add(const Contact& bond, std::int32_t i, std::int32_t j, const BondLaw& law, double a_i, double a_j,
@@ -217,15 +219,15 @@ void BondBlock::move(std::size_t b, const MotionBlock& motion, Extremes& extreme
   const V M = (-holds * constant(k_t) * twisting) * n - (holds * constant(k_r)) * rolling;
   const V turn = stretch * cross(n, F), force = F - tension * n, on_i = Lane::Constant(-1) * (M + a_i * turn),
           on_j = M - a_j * turn;
-  to_rows(Lane::Constant(-1) * force, on_i, &loads_[2 * b]);
-  to_rows(force, on_j, &loads_[2 * b + lanes]);
+  to_rows(Lane::Constant(-1) * force, on_i, &loads_[2 * lanes + 2 * b]);
+  to_rows(force, on_j, &loads_[3 * lanes + 2 * b]);
   write(&holds_[b], holds);
   extremes.holding = extremes.holding.min(holds);
   extremes.deepest = extremes.deepest.max(-gap * constant(inverse_radius));
 }
 
 void BondBlock::advance(const MotionBlock& motion) {
-  loads_.resize(2 * padded(count_));
+  loads_.resize(2 * lanes + 2 * padded(count_));
   Extremes all;
   if (count_ < many) {
     for (std::size_t b = 0; b < count_; b += lanes) move(b, motion, all);
@@ -272,12 +274,12 @@ void BondBlock::move_as_springs(std::size_t b, const std::vector<SixRow>& ways) 
   const V F = (-constant(k_s, b)) * (U - apart * n - cross(a_i * Wi + a_j * Wj, n));
   const V M = (-constant(k_t, b) * twist) * n - constant(k_r, b) * (W - twist * n);
   const V turn = cross(n, F), force = F - (read(&slope_[b]) * apart) * n;
-  to_rows(Lane::Constant(-1) * force, Lane::Constant(-1) * (M + a_i * turn), &loads_[2 * b]);
-  to_rows(force, M - a_j * turn, &loads_[2 * b + lanes]);
+  to_rows(Lane::Constant(-1) * force, Lane::Constant(-1) * (M + a_i * turn), &loads_[2 * lanes + 2 * b]);
+  to_rows(force, M - a_j * turn, &loads_[3 * lanes + 2 * b]);
 }
 
 void BondBlock::respond(const std::vector<SixRow>& ways) {
-  loads_.resize(2 * padded(count_));
+  loads_.resize(2 * lanes + 2 * padded(count_));
 #pragma omp parallel for schedule(static) if (count_ >= many)
   for (std::size_t b = 0; b < count_; b += lanes) move_as_springs(b, ways);
 }
@@ -289,7 +291,7 @@ BondBlock::Stiffness BondBlock::stiffening_on(std::size_t place) const {
   const std::int32_t* links = links_.data() + place * capacity_;
   for (std::int32_t k = 0; k < degree_[place]; ++k) {
     const auto end = static_cast<std::size_t>(links[k]);
-    const std::size_t b = end / (2 * lanes) * lanes + row_of(end % lanes), c = uniform_ ? 0 : b;
+    const std::size_t b = (end / (2 * lanes) - 1) * lanes + row_of(end % lanes), c = uniform_ ? 0 : b;
     const bool fresh = remembered_[b] < 0;
     const float stiffer = slope_[b] - std::max(remembered_[b], 0.0f);
     if (!fresh && stiffer <= 0) continue;

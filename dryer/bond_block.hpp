@@ -62,9 +62,9 @@ class BondBlock {
   std::int32_t second(std::size_t bond) const { return j_[bond]; }
 
  private:
-  // An end of a bond: register, side (0: i, 1: j) and row in one number.
+  // An end of a bond: register, side (0: i, 1: j) and row in one number; 0 for none.
   static std::int32_t end_of(std::size_t bond, std::size_t side) {
-    return static_cast<std::int32_t>(bond / lanes * (2 * lanes) + side * lanes + row_of(bond % lanes));
+    return static_cast<std::int32_t>((bond / lanes + 1) * (2 * lanes) + side * lanes + row_of(bond % lanes));
   }
   // What depends on the pair's radii and the material alone. most: displacement at which a spring yields.
   enum Constant : std::size_t {
@@ -105,14 +105,15 @@ class BondBlock {
   std::vector<float> twisting_, gap_, lost_gap_;
   std::array<std::vector<float>, constant_count> constants_;
   bool uniform_ = true;  // all bonds have the same constants
-  std::vector<SixRow> loads_;  // of bonds on places; index: end
+  std::vector<SixRow> loads_;  // of bonds on places; index: end, as many zeros first as a register has ends
   std::vector<float> holds_;  // 1; 0 if the bond is beyond its reach
   std::vector<float> slope_;  // of the normal force, N/m
   std::vector<float> remembered_;  // slope; less than 0 where the bond is new
   Lane deepest_ = Lane::Zero();
 
-  // The ends of bonds at each place: capacity_ entries a place, of which degree_ are in use.
-  std::size_t capacity_ = 16;
+  // The ends of bonds at each place: capacity_ entries a place, of which degree_ are in use. The next ones up to a
+  // multiple of four are none, so that loops over them are guessed right more often.
+  std::size_t capacity_ = 8;
   std::vector<std::int32_t> links_;
   std::vector<std::int32_t> degree_;
 
@@ -124,7 +125,8 @@ class BondBlock {
 inline Six BondBlock::load_on(std::size_t place) const {
   Six sum{};
   const std::int32_t* links = links_.data() + place * capacity_;
-  for (std::int32_t k = 0; k < degree_[place]; ++k) sum += load(loads_[static_cast<std::size_t>(links[k])]);
+  for (std::int32_t k = 0; k < degree_[place]; k += 4)
+    for (std::int32_t l = k; l < k + 4; ++l) sum += load(loads_[static_cast<std::size_t>(links[l])]);
   return sum;
 }
 

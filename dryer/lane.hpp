@@ -75,6 +75,7 @@ inline std::array<in_lanes::Register, 4> to_quarters(const LaneVector& v) {
 inline void to_rows(const LaneVector& translation, const LaneVector& rotation, SixRow* rows) {
   using in_lanes::Register;
   const auto first = to_quarters(translation), second = to_quarters(rotation);
+#pragma GCC unroll 4
   for (std::size_t r = 0; r < 4; ++r) {
     const Register& p = first[r];
     const Register& q = second[r];
