@@ -100,7 +100,7 @@ const ParameterTable& drying_parameters() {
             .by_default("overdamped"),
         P::real("largest_displacement", "", "implicit and stabilised: largest motion of a particle in one step, in a")
             .above(0)
-            .at_most(0.1)
+            .at_most(0.2)
             .by_default(0.02),
         P::real("contact_precision", "",
                 "implicit: overlap beyond which a pair is bonded within the step in which it touches, in a")

@@ -19,7 +19,7 @@ namespace {
 constexpr double steps_in_one = 8;
 // Within a stabilised step there is room for a bond more on every particle, and for bonds pressed to so much more.
 constexpr double room = 0.05;
-// Evaluations from one look at the stiffness to the next.
+// Evaluations from one look at stiffness, displacements and pairs to the next.
 constexpr int look = 64;
 // From so many on, several threads are worth it.
 constexpr std::size_t many = 2000;
@@ -214,17 +214,26 @@ bool Stabilised::is_stable(double limit) {
   return known_rate_ < limit;
 }
 
-// Sorts out of the open pairs those that can meet within a stabilised step.
-void Stabilised::part(double gap) {
+bool Stabilised::nearer(const Pair& places, float gap) const {
+  const Quad D = in_single(load(motion_.position[places.j]) - load(motion_.position[places.i]));
+  const float reach = radius_[places.i] + radius_[places.j] + gap;
+  return D[0] * D[0] + D[1] * D[1] + D[2] * D[2] <= reach * reach;
+}
+
+// Sorts out of the open pairs those that can meet until the next look.
+void Stabilised::part() {
+  open_pairs_.insert(open_pairs_.end(), closest_.begin(), closest_.end());
   closest_.clear();
+  closer_.resize(open_pairs_.size());
+  const auto gap = static_cast<float>(control_.largest_displacement * smallest_radius());
+#pragma omp parallel for schedule(static) if (open_pairs_.size() > many)
+  for (std::size_t q = 0; q < open_pairs_.size(); ++q) closer_[q] = nearer(open_pairs_[q], gap);
   std::size_t left = 0;
-  for (const Pair& pair : open_pairs_) {
-    const Quad D = in_single(load(motion_.position[pair.j]) - load(motion_.position[pair.i]));
-    const float reach = radius_[pair.i] + radius_[pair.j] + static_cast<float>(gap);
-    if (D[0] * D[0] + D[1] * D[1] + D[2] * D[2] < reach * reach)
-      closest_.push_back(pair);
+  for (std::size_t q = 0; q < open_pairs_.size(); ++q) {
+    if (closer_[q])
+      closest_.push_back(open_pairs_[q]);
     else
-      open_pairs_[left++] = pair;
+      open_pairs_[left++] = open_pairs_[q];
   }
   open_pairs_.resize(left);
 }
@@ -237,7 +246,7 @@ void Stabilised::stabilised_step(double latest_time) {
   const int stages = Chebyshev::stages(dt, limit);
   const Chebyshev method(stages);
   before_ = motion_.position;
-  part(4 * control_.largest_displacement * smallest_radius());
+  part();
   int done = 0;
   bool within_limit = true;
   while (done < stages && within_limit) {
@@ -247,9 +256,12 @@ void Stabilised::stabilised_step(double latest_time) {
     ++done;
     const bool known = meet(closest_, limit);
     if (done == stages) break;
-    if (!known || done % look == 0) within_limit = is_stable(limit);
-    // Others than those that are looked at may meet.
-    if (done % look == 0) within_limit = within_limit && displacement(origin_, 0) < 0.5 * control_.near();
+    if (done % look == 0) {
+      part();
+      // Farther, and others than those that are known may meet.
+      within_limit = displacement(origin_, 0) < 0.5 * control_.near();
+    }
+    if (!known || done % look == 0) within_limit = is_stable(limit) && within_limit;
   }
   const bool whole = done == stages;
   const double passed = whole ? dt : method.reached[done - 1] * dt;
@@ -321,22 +333,17 @@ void Stabilised::lose() {
 
 // Bonds what touches among the pairs and takes it from them. False if that may have brought the rate over the limit.
 bool Stabilised::meet(std::vector<Pair>& pairs, double limit) {
-  const auto touch = [&](const Pair& pair) {
-    const Quad D = in_single(load(motion_.position[pair.j]) - load(motion_.position[pair.i]));
-    const float reach = radius_[pair.i] + radius_[pair.j];
-    return D[0] * D[0] + D[1] * D[1] + D[2] * D[2] <= reach * reach;
-  };
   std::vector<std::size_t> touching;
   if (pairs.size() < many) {
     for (std::size_t q = 0; q < pairs.size(); ++q)
-      if (touch(pairs[q])) touching.push_back(q);
+      if (nearer(pairs[q], 0)) touching.push_back(q);
   } else {
 #pragma omp parallel
     {
       std::vector<std::size_t> mine;
 #pragma omp for schedule(static) nowait
       for (std::size_t q = 0; q < pairs.size(); ++q)
-        if (touch(pairs[q])) mine.push_back(q);
+        if (nearer(pairs[q], 0)) mine.push_back(q);
 #pragma omp critical
       touching.insert(touching.end(), mine.begin(), mine.end());
     }

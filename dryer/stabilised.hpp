@@ -12,7 +12,7 @@ namespace crumble {
 struct StabilisedControl {
   double largest_displacement = 0.02;  // of a particle in one stabilised step, in its radius
   // How near pairs must be to be looked at within a step(), in the smallest radius.
-  double near() const { return std::max(0.2, 4 * largest_displacement); }
+  double near() const { return std::max(0.2, 3 * largest_displacement); }
   // The same for the list of all.
   double skin() const { return near() + 0.3; }
 };
@@ -44,7 +44,8 @@ class Stabilised : public Integrator {
   double increase_at(std::size_t place, double known) const;
   double rate_of_a_bond() const;
   double surface_rate() const;
-  void part(double gap);
+  bool nearer(const Pair& places, float gap) const;
+  void part();
   void push(const Chebyshev::Stage& stage, double dt, double R);
   void push_some(std::size_t first, const Chebyshev::Stage& stage, double dt, double R);
   bool meet(std::vector<Pair>& pairs, double limit);
@@ -66,8 +67,9 @@ class Stabilised : public Integrator {
   std::vector<DoubleRow> origin_, before_;
   MotionBlock motion_;  // its ways are the increments of the last evaluation
   BondBlock bonds_;
-  std::vector<Pair> open_pairs_, closest_;  // places that may meet within the step, and within a stabilised step
+  std::vector<Pair> open_pairs_, closest_;  // places that may meet within the step, and until the next look
   std::vector<double> moves_;
+  std::vector<char> closer_;
 };
 
 }  // namespace crumble
