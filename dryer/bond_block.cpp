@@ -7,9 +7,6 @@ namespace crumble {
 
 namespace {
 
-// From so many bonds on, several threads are worth it.
-constexpr std::size_t many = 2000;
-
 // Displacement at which a spring yields; 1e30 without limit.
 double farthest(double limit, double stiffness) { return stiffness == 0 ? 0 : std::min(limit / stiffness, 1e30); }
 

@@ -8,6 +8,7 @@
 
 #include "common/agglomerate/bond.hpp"
 #include "dryer/drag.hpp"
+#include "dryer/surface_pull.hpp"
 
 namespace crumble {
 
@@ -195,23 +196,8 @@ void Brownian::push() {
 }
 
 void Brownian::surface() {
-  const float R = static_cast<float>(R_),
-              factor = static_cast<float>(-2 * std::numbers::pi * model_.droplet.surface_tension);
-  const std::size_t count = fast_.size();
-  float* pull = block_.pull.data();
-  if (R == 0) return;
-  for (std::size_t m = 0; m < count; ++m) {
-    const double* x = motion_.position[m].at;
-    pull[m] = static_cast<float>(x[0] * x[0] + x[1] * x[1] + x[2] * x[2] - R_ * R_);
-  }
-  const float* radius = block_.radius_in_single.data();
-#pragma omp simd
-  for (std::size_t m = 0; m < padded(count); ++m) {
-    const float excess = pull[m], a = radius[m], r = std::sqrt(std::max(excess + R * R, 0.0f)),
-                offset = excess / (r + R);
-    const float squared = r + R > a ? std::max((a - offset) * (a + offset), 0.0f) : 0.0f;
-    pull[m] = factor * std::sqrt(squared) / std::max(r, 1e-6f * R);
-  }
+  surface_pulls(model_.droplet.surface_tension, R_, motion_.position.data(), block_.radius_in_single.data(),
+                fast_.size(), block_.pull.data());
 }
 
 // Bonds what touches.

@@ -14,6 +14,9 @@ namespace crumble {
 inline constexpr std::size_t lanes = 16;
 constexpr std::size_t padded(std::size_t count) { return (count + lanes - 1) / lanes * lanes; }
 
+// From so many numbers on, several threads are worth it.
+inline constexpr std::size_t many = 2000;
+
 using Lane = Eigen::Array<float, lanes, 1>;
 
 struct LaneVector {

@@ -18,7 +18,7 @@ template <class Term>
 double sum(std::size_t places, Term term) {
   constexpr std::size_t piece = 1024;
   std::vector<double> part((places + piece - 1) / piece);
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (places > many)
   for (std::size_t k = 0; k < part.size(); ++k) {
     double own = 0;
     for (std::size_t m = k * piece; m < std::min((k + 1) * piece, places); ++m) own += term(m);
@@ -52,10 +52,10 @@ double RelaxationRate::bound(BondBlock& bonds, const Mobility& mobility) {
     return std::sqrt(sum(places, [&](std::size_t m) { return dot(load(u[m]) / mobility.of(m), load(u[m])); }));
   };
   const auto scale = [&](std::vector<SixRow>& u, double factor) {
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (places > many)
     for (std::size_t m = 0; m < places; ++m) store(u[m], static_cast<float>(factor) * load(u[m]));
   };
-#pragma omp parallel for schedule(static)
+#pragma omp parallel for schedule(static) if (places > many)
   for (std::size_t m = 0; m < places; ++m) {
     const auto x = random_normals(0, Purpose::eigenvector, static_cast<std::uint32_t>(m), 0),
                y = random_normals(0, Purpose::eigenvector, static_cast<std::uint32_t>(m), 1);

@@ -10,6 +10,7 @@
 
 #include "common/agglomerate/bond.hpp"
 #include "dryer/drag.hpp"
+#include "dryer/surface_pull.hpp"
 
 namespace crumble {
 
@@ -21,8 +22,6 @@ constexpr double steps_in_one = 8;
 constexpr double room = 0.05;
 // Evaluations from one look at stiffness, displacements and pairs to the next.
 constexpr int look = 64;
-// From so many on, several threads are worth it.
-constexpr std::size_t many = 2000;
 
 std::uint64_t spread(std::uint64_t x) {
   x &= 0x1fffff;
@@ -292,21 +291,8 @@ void Stabilised::push_some(std::size_t first, const Chebyshev::Stage& stage, dou
   const std::size_t count = std::min(lanes, chosen_.size() - first);
   DoubleRow* position = motion_.position.data() + first;
   SixRow* moved = motion_.moved.data() + first;
-  // Of the surface, over the distance from the centre: Eq. 8 with r - R as a difference of squares, for its digits.
-  Lane excess = Lane::Zero();
-  for (std::size_t l = 0; l < count; ++l) {
-    const double* x = position[l].at;
-    excess[static_cast<Eigen::Index>(l)] = static_cast<float>(x[0] * x[0] + x[1] * x[1] + x[2] * x[2] - R * R);
-  }
-  const float front = static_cast<float>(R),
-              sigma = static_cast<float>(-2 * std::numbers::pi * model_.droplet.surface_tension);
-  const Lane a = read(&radius_[first]), r = (excess + front * front).max(0.0f).sqrt(), sum = r + front,
-             offset = excess / sum.max(1e-30f);
-  // None where R < a and the liquid is inside the particle, or where there is no liquid.
-  const Lane squared = R > 0 ? Lane(((a - offset) * (a + offset)).max(0.0f) * ((sum - a) * 1e30f).max(0.0f).min(1.0f))
-                             : Lane(Lane::Zero());
-  alignas(64) float pull[lanes];
-  write(pull, sigma * squared.sqrt() / r.max(1e-6f * front + 1e-30f));
+  alignas(64) float pull[lanes] = {};
+  surface_pulls(model_.droplet.surface_tension, R, position, &radius_[first], count, pull);
 
   const auto memory = static_cast<float>(stage.memory), push = static_cast<float>(stage.push * dt);
   for (std::size_t l = 0; l < count; ++l) {

@@ -180,7 +180,7 @@ TEST(RelaxationRate, without_bonds_is_zero) {
 
 TEST(RelaxationRate, is_the_same_on_any_number_of_threads) {
   const Network n = lattice(14);
-  EXPECT_GT(n.position.size(), 2000u);
+  EXPECT_GT(n.position.size(), many);
   const auto bound = [&](int threads) {
     omp_set_num_threads(threads);
     Block block = block_of(n);
