@@ -27,9 +27,15 @@ void BondBlock::each_array(Visit visit) {
   for (auto& array : constants_) visit(array);
 }
 
-void BondBlock::clear(std::size_t places) {
+void BondBlock::clear(std::size_t places, std::size_t expected) {
   count_ = 0;
-  each_array([](auto& array) { array.clear(); });
+  // Arrays that grow by themselves take up to twice the memory.
+  const std::size_t room = padded(expected + expected / 32 + 1);
+  each_array([room](auto& array) {
+    array.clear();
+    array.reserve(room);
+  });
+  loads_.reserve(2 * lanes + 2 * room);
   deepest_.setZero();
   degree_.assign(places, 0);
   links_.assign(places * capacity_, 0);
@@ -115,6 +121,7 @@ void BondBlock::remove(std::size_t bond) {
   link(j_[bond], end_of(bond, 1));
 }
 
+// Gap, normal and histories.
 void BondBlock::store(std::size_t b, Contact& contact) const {
   for (int k = 0; k < 3; ++k) {
     contact.normal[k] = normal_[k][b];
@@ -175,8 +182,10 @@ void BondBlock::move(std::size_t b, const MotionBlock& motion, Extremes& extreme
   const V D = from_rows([&](std::size_t l) __attribute__((always_inline)) {
     return in_single(load(motion.position[j[l]]) - load(motion.position[i[l]]));
   });
-  const V Wi = from_rows([&](std::size_t l) __attribute__((always_inline)) { return load_rotation(motion.moved[i[l]]); });
-  const V Wj = from_rows([&](std::size_t l) __attribute__((always_inline)) { return load_rotation(motion.moved[j[l]]); });
+  const V Wi =
+      from_rows([&](std::size_t l) __attribute__((always_inline)) { return load_rotation(motion.moved[i[l]]); });
+  const V Wj =
+      from_rows([&](std::size_t l) __attribute__((always_inline)) { return load_rotation(motion.moved[j[l]]); });
   const V W = Wj - Wi;
   const Lane a_i = constant(radius_i), a_j = constant(radius_j), reach = constant(sum_of_radii);
   const Lane squared = dot(D, D), inverse = squared.rsqrt(), distance = squared * inverse;

@@ -2,12 +2,15 @@
 // steps.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
 
 #include "common/agglomerate/agglomerate.hpp"
-#include "common/contact/bond_law.hpp"
+#include "common/agglomerate/bond.hpp"
+#include "common/contact/bond_laws.hpp"
+#include "common/numerics/neighbours.hpp"
 #include "dryer/lane.hpp"
 
 namespace crumble {
@@ -27,13 +30,15 @@ struct MotionBlock {
 class BondBlock {
  public:
   std::size_t size() const { return count_; }
-  void clear(std::size_t places);  // of the motion block
+  // places: of the motion block; expected: number of bonds to come, for which room is made.
+  void clear(std::size_t places, std::size_t expected = 0);
   // i, j: places of the two spheres in the motion block; lost_gap: beyond it the bond is lost, m.
   void add(const Contact& bond, std::int32_t i, std::int32_t j, const BondLaw& law, double a_i, double a_j,
            double lost_gap);
   void remove(std::size_t bond);  // the last one takes its place
-  // Gap, normal and histories back into a bond.
-  void store(std::size_t bond, Contact& contact) const;
+  // All bonds as they are, with their loads, sorted; particle: that of a place.
+  template <class Index>
+  void hand_back(const std::vector<Index>& particle, const BondLaws& laws, std::vector<Contact>& contacts) const;
 
   // Moves all bonds to the positions of the block and finds their loads. Bonds that are beyond their reach pull no more
   // and are listed in lost(), ascending.
@@ -88,6 +93,7 @@ class BondBlock {
   struct Extremes {
     Lane holding = Lane::Ones(), deepest = Lane::Zero();
   };
+  void store(std::size_t bond, Contact& contact) const;
   void move(std::size_t first, const MotionBlock& motion, Extremes& extremes);
   void move_as_springs(std::size_t first, const std::vector<SixRow>& ways);
   Lane constant(Constant which, std::size_t first) const {
@@ -97,17 +103,16 @@ class BondBlock {
   void link(std::int32_t place, std::int32_t end);
   void unlink(std::int32_t place, std::int32_t end);
 
-
   std::size_t count_ = 0;
   std::vector<std::int32_t> i_, j_, lost_;
   std::vector<std::int64_t> born_;
   Triple apart_, normal_, sliding_, rolling_;  // apart: from i to j, m
   std::vector<float> twisting_, gap_, lost_gap_;
   std::array<std::vector<float>, constant_count> constants_;
-  bool uniform_ = true;  // all bonds have the same constants
-  std::vector<SixRow> loads_;  // of bonds on places; index: end, as many zeros first as a register has ends
-  std::vector<float> holds_;  // 1; 0 if the bond is beyond its reach
-  std::vector<float> slope_;  // of the normal force, N/m
+  bool uniform_ = true;            // all bonds have the same constants
+  std::vector<SixRow> loads_;      // of bonds on places; index: end, as many zeros first as a register has ends
+  std::vector<float> holds_;       // 1; 0 if the bond is beyond its reach
+  std::vector<float> slope_;       // of the normal force, N/m
   std::vector<float> remembered_;  // slope; less than 0 where the bond is new
   Lane deepest_ = Lane::Zero();
 
@@ -128,6 +133,23 @@ inline Six BondBlock::load_on(std::size_t place) const {
   for (std::int32_t k = 0; k < degree_[place]; k += 4)
     for (std::int32_t l = k; l < k + 4; ++l) sum += load(loads_[static_cast<std::size_t>(links[l])]);
   return sum;
+}
+
+template <class Index>
+void BondBlock::hand_back(const std::vector<Index>& particle, const BondLaws& laws,
+                          std::vector<Contact>& contacts) const {
+  contacts.resize(count_);
+  for (std::size_t b = 0; b < count_; ++b) {
+    Contact& bond = contacts[b];
+    bond.i = static_cast<std::int32_t>(particle[i_[b]]);
+    bond.j = static_cast<std::int32_t>(particle[j_[b]]);
+    store(b, bond);
+    bond.at_limit = 0;
+    evaluate_loads(bond, laws(bond.i, bond.j));
+  }
+  std::sort(contacts.begin(), contacts.end(), [](const Contact& a, const Contact& b) {
+    return Pair{a.i, a.j} < Pair{b.i, b.j};
+  });
 }
 
 }  // namespace crumble

@@ -250,18 +250,7 @@ void Brownian::put_back() {
     f.position[p] = vector(motion_.position[m]);
     ahead_[p] = vector(block_.ahead[m]);
   }
-  f.contacts.resize(bonds_.size());
-  for (std::size_t b = 0; b < bonds_.size(); ++b) {
-    Contact& bond = f.contacts[b];
-    bond.i = static_cast<std::int32_t>(fast_[bonds_.first(b)]);
-    bond.j = static_cast<std::int32_t>(fast_[bonds_.second(b)]);
-    bonds_.store(b, bond);
-    bond.at_limit = 0;
-    evaluate_loads(bond, laws_(bond.i, bond.j));
-  }
-  std::sort(f.contacts.begin(), f.contacts.end(), [](const Contact& a, const Contact& b) {
-    return Pair{a.i, a.j} < Pair{b.i, b.j};
-  });
+  bonds_.hand_back(fast_, laws_, f.contacts);
   statistics_.largest_overlap = std::max(statistics_.largest_overlap, bonds_.deepest_overlap());
 }
 

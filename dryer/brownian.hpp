@@ -56,7 +56,6 @@ class Brownian : public Integrator {
   };
   void classify();
   void gather();
-  void advance_fast();
   void fast_step(int step);
   double early(std::int32_t i, std::int32_t j) const;
   void add_bond(const Contact& bond, std::int32_t i, std::int32_t j);
@@ -69,7 +68,6 @@ class Brownian : public Integrator {
   bool is_dry(std::int32_t particle) const;
   void check_finite() const;
 
-  std::uint64_t seed_;
   BrownianControl control_;
   BrownianPath path_;
   double dt_, margin_;

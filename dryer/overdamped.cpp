@@ -7,13 +7,14 @@
 #include <stdexcept>
 
 #include "common/contact/kinematics.hpp"
+#include "dryer/displacement.hpp"
 
 namespace crumble {
 
 namespace {
 
-// In units of the largest displacement: what a step is refused for, and how much farther the few may go that snap.
-constexpr double too_far = 1.5, snap = 5;
+// In units of the largest displacement: what a step is refused for.
+constexpr double too_far = 1.5;
 
 // How much nearer a pair may come in one step, in the smallest radius. Pairs within it are always listed, so that what
 // a step finds does not depend on when the list was made, and so not on a restart.
@@ -93,17 +94,13 @@ void Overdamped::predict(double dt) {
   for (std::size_t k = 0; k < active.size(); ++k) implicit_.increments()[k] = dt * rate_[active[k]];
 }
 
-// In the radius: the largest, or a fifth of it where it is that of fewer than one particle in a thousand. The few that
-// snap into a new place must not slow down a large droplet: their number grows with that of the particles.
+// In the radius.
 double Overdamped::displacement() {
   moves_.clear();
   const auto& active = activity_.active();
   for (std::size_t k = 0; k < active.size(); ++k)
     moves_.push_back(implicit_.increments()[k].head<3>().norm() / state_.particles.radius[active[k]]);
-  if (moves_.empty()) return 0;
-  const auto place = moves_.end() - 1 - static_cast<std::ptrdiff_t>(moves_.size() / 1000);
-  std::nth_element(moves_.begin(), place, moves_.end());
-  return std::max(*place, *std::max_element(place, moves_.end()) / snap);
+  return largest_but_snaps(moves_);
 }
 
 Vector3 Overdamped::moved(std::int32_t p) const { return state_.state.position[p] + implicit_.translation(p); }

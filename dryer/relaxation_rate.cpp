@@ -61,7 +61,8 @@ double RelaxationRate::bound(BondBlock& bonds, const Mobility& mobility) {
                y = random_normals(0, Purpose::eigenvector, static_cast<std::uint32_t>(m), 1);
     const Six mobile = mobility.of(m);
     const double way = std::sqrt(mobile[0]), turn = std::sqrt(mobile[4]);
-    way_[m] = six_row((Vector6() << way * x[0], way * x[1], way * x[2], turn * x[3], turn * y[0], turn * y[1]).finished());
+    way_[m] =
+        six_row((Vector6() << way * x[0], way * x[1], way * x[2], turn * x[3], turn * y[0], turn * y[1]).finished());
   }
   scale(way_, 1 / norm(way_));
 

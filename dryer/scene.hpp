@@ -24,7 +24,7 @@ struct DryingScene {
   std::uint64_t seed = 1;
   bool inertial = false;
   bool stabilised = false;  // explicit stabilised steps where there is no Brownian motion, else implicit ones
-  double step = 0;  // inertial only, s
+  double step = 0;          // inertial only, s
   OverdampedControl control;
   BrownianControl brownian;
   double softening = 1;        // of the contacts while particles diffuse

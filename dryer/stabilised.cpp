@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "common/agglomerate/bond.hpp"
+#include "dryer/displacement.hpp"
 #include "dryer/drag.hpp"
 #include "dryer/surface_pull.hpp"
 
@@ -42,7 +43,7 @@ std::uint64_t morton(const Vector3& x, double width) {
 }  // namespace
 
 Stabilised::Stabilised(const DryingModel& model, Agglomerate& state, const StabilisedControl& control)
-    : Integrator(model, state, control.skin()), control_(control), place_(state.particles.size(), -1) {
+    : Integrator(model, state, 0), control_(control), place_(state.particles.size(), -1) {
   if (model.contact.normal != NormalLaw::jkr) throw std::invalid_argument("stabilised steps know the JKR law only");
   if (model.thermal_energy > 0) throw std::invalid_argument("stabilised steps know no Brownian motion");
   state.state.velocity.resize(state.particles.size(), Vector3::Zero());
@@ -60,7 +61,6 @@ void Stabilised::step(double latest_time) {
   const double end = std::min(begin + time_of_travel(steps_in_one * control_.largest_displacement), latest_time);
   choose(front_.radius(end));
   gather();
-  origin_ = motion_.position;
   if (next_dt_ == 0) next_dt_ = end - begin;
   if (chosen_.empty()) {
     f.time = end;
@@ -71,7 +71,7 @@ void Stabilised::step(double latest_time) {
   while (f.time < end) {
     stabilised_step(end);
     // Within the next more pairs may come near.
-    if (displacement(origin_, 0) + control_.largest_displacement > 0.5 * control_.near()) break;
+    if (farthest() + control_.largest_displacement > 0.5 * control_.near()) break;
   }
   bonds_.advance(motion_);
   lose();
@@ -144,7 +144,7 @@ void Stabilised::gather() {
   for (std::size_t b = 0; b < f.contacts.size(); ++b)
     order.emplace_back(std::min(place_[f.contacts[b].i], place_[f.contacts[b].j]), static_cast<std::int32_t>(b));
   std::sort(order.begin(), order.end());
-  bonds_.clear(count);
+  bonds_.clear(count, f.contacts.size());
   known_rate_ = 0;
   for (const auto& [place, b] : order) {
     const Contact& bond = f.contacts[b];
@@ -258,7 +258,7 @@ void Stabilised::stabilised_step(double latest_time) {
     if (done % look == 0) {
       part();
       // Farther, and others than those that are known may meet.
-      within_limit = displacement(origin_, 0) < 0.5 * control_.near();
+      within_limit = farthest() < 0.5 * control_.near();
     }
     if (!known || done % look == 0) within_limit = is_stable(limit) && within_limit;
   }
@@ -272,7 +272,8 @@ void Stabilised::stabilised_step(double latest_time) {
   statistics_.steps += done;
   statistics_.particle_steps += done * static_cast<std::int64_t>(chosen_.size());
   f.step += done;
-  const double moved = displacement(before_, 0.001) / control_.largest_displacement;
+  measure([&](std::size_t m) { return load(before_[m]); });
+  const double moved = largest_but_snaps(moves_) / control_.largest_displacement;
   next_dt_ = dt * std::clamp(0.9 / std::max(moved * (passed > 0 ? dt / passed : 1), 1e-3), 0.5, 2.0);
 }
 
@@ -352,21 +353,22 @@ bool Stabilised::meet(std::vector<Pair>& pairs, double limit) {
   return within_limit;
 }
 
-// From where the particles were, in the smallest radius: the largest, or a fifth of it where it is that of fewer than
-// the quantile, as in overdamped.cpp.
-double Stabilised::displacement(const std::vector<DoubleRow>& from, double quantile) {
+// Displacements of all places from where they were, in the smallest radius.
+template <class From>
+void Stabilised::measure(From from) {
   const std::size_t count = chosen_.size();
   moves_.resize(count);
 #pragma omp parallel for schedule(static) if (count > many)
   for (std::size_t m = 0; m < count; ++m) {
-    const Quad D = in_single(load(motion_.position[m]) - load(from[m]));
+    const Quad D = in_single(load(motion_.position[m]) - from(m));
     moves_[m] = std::sqrt(D[0] * D[0] + D[1] * D[1] + D[2] * D[2]) / smallest_radius();
   }
-  if (moves_.empty()) return 0;
-  const auto place = moves_.end() - 1 - static_cast<std::ptrdiff_t>(quantile * static_cast<double>(moves_.size()));
-  std::nth_element(moves_.begin(), place, moves_.end());
-  const double largest = *std::max_element(place, moves_.end());
-  return quantile > 0 ? std::max(*place, largest / 5) : largest;
+}
+
+// The largest displacement since the beginning of the step().
+double Stabilised::farthest() {
+  measure([&](std::size_t m) { return load(double_row(state_.state.position[chosen_[m]])); });
+  return moves_.empty() ? 0 : *std::max_element(moves_.begin(), moves_.end());
 }
 
 void Stabilised::put_back(double begin) {
@@ -380,20 +382,8 @@ void Stabilised::put_back(double begin) {
     f.velocity[p] = passed > 0 ? Vector3((x - f.position[p]) / passed) : Vector3(Vector3::Zero());
     f.position[p] = x;
   }
-  f.contacts.resize(bonds_.size());
-  for (std::size_t b = 0; b < bonds_.size(); ++b) {
-    Contact& bond = f.contacts[b];
-    bond.i = chosen_[bonds_.first(b)];
-    bond.j = chosen_[bonds_.second(b)];
-    bonds_.store(b, bond);
-    bond.at_limit = 0;
-    evaluate_loads(bond, laws_(bond.i, bond.j));
-    activity_.wake(bond.i);
-    activity_.wake(bond.j);
-  }
-  std::sort(f.contacts.begin(), f.contacts.end(), [](const Contact& a, const Contact& b) {
-    return Pair{a.i, a.j} < Pair{b.i, b.j};
-  });
+  bonds_.hand_back(chosen_, laws_, f.contacts);
+  for (const Contact& bond : f.contacts) activity_.wake(bond.i), activity_.wake(bond.j);
   statistics_.largest_overlap = std::max(statistics_.largest_overlap, bonds_.deepest_overlap());
 }
 

@@ -50,7 +50,9 @@ class Stabilised : public Integrator {
   void push_some(std::size_t first, const Chebyshev::Stage& stage, double dt, double R);
   bool meet(std::vector<Pair>& pairs, double limit);
   void lose();
-  double displacement(const std::vector<DoubleRow>& from, double quantile);
+  template <class From>
+  void measure(From from);
+  double farthest();
   double time_of_travel(double radii) const;
   std::vector<Pair> within(double gap) const;
 
@@ -64,7 +66,7 @@ class Stabilised : public Integrator {
   RelaxationRate relaxation_;
   double known_rate_ = 0;  // bound for the bonds as they were when their stiffness was last remembered, 1/s
   std::vector<float> radius_;
-  std::vector<DoubleRow> origin_, before_;
+  std::vector<DoubleRow> before_;
   MotionBlock motion_;  // its ways are the increments of the last evaluation
   BondBlock bonds_;
   std::vector<Pair> open_pairs_, closest_;  // places that may meet within the step, and until the next look

@@ -12,7 +12,7 @@ namespace crumble {
 // Force of capillary_force() (paper, Eq. 8) over the distance from the centre of the droplet, N/m, for a particle of
 // radius a at a distance whose square is larger than that of the front by `excess`: r - R as a difference of squares,
 // for its digits. 0 where the surface does not cut the particle (surface_cuts()). At most 0; times the position it is
-// the force. It has 1e-6 of the largest force, where the surface touches the particle only the root of that.
+// the force, good to 1e-5 of the largest (test).
 inline float surface_pull(float surface_tension, float R, float a, float excess) {
   const float r = std::sqrt(std::max(excess + R * R, 0.0f)), offset = excess / (r + R);
   const float squared = r + R > a ? std::max((a - offset) * (a + offset), 0.0f) : 0.0f;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "dryer/drag.hpp"
+#include "dryer/surface_pull.hpp"
 
 using namespace crumble;
 
@@ -22,6 +23,18 @@ TEST(Droplet, loses_surface_at_a_constant_rate) {
   }
   EXPECT_EQ(droplet.radius(2.1e-4), 0);
   EXPECT_EQ(droplet.radius(1), 0);
+}
+
+TEST(SurfacePull, is_the_capillary_force_over_the_distance_in_single_precision) {
+  const double full = capillary_force(sigma, a, 0);
+  for (const double R : {215e-9, 40e-9, 8e-9}) {
+    for (double r = std::max(R - 1.1 * a, 0.05 * a); r < R + 1.1 * a; r += 0.0371 * a) {
+      const double law = surface_cuts(a, r, R) ? capillary_force(sigma, a, r - R) : 0;
+      const float pull = surface_pull(static_cast<float>(sigma), static_cast<float>(R), static_cast<float>(a),
+                                      static_cast<float>(r * r - R * R));
+      EXPECT_NEAR(-static_cast<double>(pull) * r, law, 1e-5 * full) << r / a << " of " << R / a;
+    }
+  }
 }
 
 TEST(CapillaryForce, is_the_derivative_of_its_energy_and_acts_only_on_what_the_surface_cuts) {

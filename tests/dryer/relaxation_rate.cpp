@@ -128,8 +128,8 @@ TEST(BondSprings, are_the_slope_of_the_law) {
     const auto x = random_normals(1, Purpose::start_position, static_cast<std::uint32_t>(p), 0),
                y = random_normals(1, Purpose::start_position, static_cast<std::uint32_t>(p), 1);
     // Small beside the range of the bond (0.2 nm), large beside the digits of single precision.
-    const Vector6 way = (Vector6() << 2e-13 * x[0], 2e-13 * x[1], 2e-13 * x[2], 2e-5 * x[3], 2e-5 * y[0], 2e-5 * y[1])
-                            .finished();
+    const Vector6 way =
+        (Vector6() << 2e-13 * x[0], 2e-13 * x[1], 2e-13 * x[2], 2e-5 * x[3], 2e-5 * y[0], 2e-5 * y[1]).finished();
     ways.push_back(six_row(way));
     motion.moved[p] = ways.back();
     motion.position[p] = double_row(n.position[p] + way.head<3>());
