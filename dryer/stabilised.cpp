@@ -123,6 +123,7 @@ void Stabilised::choose(double R_end) {
     chosen_.push_back(p);
   }
   open_pairs_.clear();
+  closest_.clear();  // lost at the end of the last step(): places are others now
   for (const Pair& pair : pairs) open_pairs_.push_back({place_[pair.i], place_[pair.j]});
 }
 
