@@ -153,7 +153,7 @@ TEST(BondSprings, are_the_slope_of_the_law) {
   }
 }
 
-// The bound may be high by the share that makes it safe, 1/(1 - e): e is 0.062 to 0.067 for these.
+// The bound may be high by the share that makes it safe, 1/(1 - e): e is 0.056 to 0.065 for these.
 TEST(RelaxationRate, bounds_the_largest_eigenvalue_from_above_and_not_far) {
   for (const Network& n : {pair_of_spheres(), lattice(2), lattice(4)}) {
     Block block = block_of(n);
