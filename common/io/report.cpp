@@ -1,7 +1,6 @@
 #include "common/io/report.hpp"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <cmath>
 #include <cstdio>
@@ -23,6 +22,15 @@ nlohmann::ordered_json& place(nlohmann::ordered_json& results, const std::string
   return dot == std::string::npos ? results[name] : place(results[name.substr(0, dot)], name.substr(dot + 1));
 }
 
+// Largest resident memory of this program, bytes. Not that of getrusage, which goes on from the program that started
+// this one. -1 where the system does not tell.
+std::int64_t peak_memory() {
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;)
+    if (std::int64_t kilobytes = 0; word == "VmHWM:" && status >> kilobytes) return kilobytes * 1024;
+  return -1;
+}
+
 }  // namespace
 
 Report::Report(std::string program, std::string version, std::string scene, std::optional<std::int64_t> seed)
@@ -41,8 +49,6 @@ void Report::error(const std::string& name, std::optional<double> value, const s
 }
 
 std::string Report::json() const {
-  rusage used{};
-  getrusage(RUSAGE_SELF, &used);
   nlohmann::ordered_json out;
   out["program"] = program_;
   out["version"] = version_;
@@ -54,7 +60,7 @@ std::string Report::json() const {
   const Cost cost = meter_.used();
   out["wall_s"] = cost.wall_s;
   out["cpu_s"] = cost.cpu_s;
-  out["peak_rss_bytes"] = std::int64_t{used.ru_maxrss} * 1024;  // Linux counts in KiB
+  out["peak_rss_bytes"] = peak_memory();
   out["steps"] = steps;
   out["results"] = nlohmann::ordered_json::object();
   for (const auto& [name, value] : results_)
