@@ -14,34 +14,25 @@ using DoubleQuad = double __attribute__((vector_size(32)));
 using Six = float __attribute__((vector_size(32)));
 
 // Rows as they stand in memory; the fourth number is 0.
-struct alignas(16) Row {
-  float at[4] = {};
-};
 struct alignas(32) DoubleRow {
+  using Register = DoubleQuad;
   double at[4] = {};
 };
 struct alignas(32) SixRow {
+  using Register = Six;
   float at[8] = {};  // x, y, z, 0 of the translation, then of the rotation
 };
 
-inline Quad load(const Row& row) {
-  Quad value;
+template <class Row>
+inline typename Row::Register load(const Row& row) {
+  typename Row::Register value;
   std::memcpy(&value, row.at, sizeof(value));
   return value;
 }
-inline void store(Row& row, Quad value) { std::memcpy(row.at, &value, sizeof(value)); }
-inline DoubleQuad load(const DoubleRow& row) {
-  DoubleQuad value;
-  std::memcpy(&value, row.at, sizeof(value));
-  return value;
+template <class Row>
+inline void store(Row& row, typename Row::Register value) {
+  std::memcpy(row.at, &value, sizeof(value));
 }
-inline void store(DoubleRow& row, DoubleQuad value) { std::memcpy(row.at, &value, sizeof(value)); }
-inline Six load(const SixRow& row) {
-  Six value;
-  std::memcpy(&value, row.at, sizeof(value));
-  return value;
-}
-inline void store(SixRow& row, Six value) { std::memcpy(row.at, &value, sizeof(value)); }
 inline Quad load_rotation(const SixRow& row) {
   Quad value;
   std::memcpy(&value, row.at + 4, sizeof(value));
@@ -56,7 +47,6 @@ inline Six six(Quad translation, Quad rotation) {
   return __builtin_shufflevector(translation, rotation, 0, 1, 2, 3, 4, 5, 6, 7);
 }
 inline Quad translation(Six value) { return __builtin_shufflevector(value, value, 0, 1, 2, 3); }
-inline Quad rotation(Six value) { return __builtin_shufflevector(value, value, 4, 5, 6, 7); }
 inline SixRow six_row(const Vector6& v) {
   SixRow row;
   for (int k = 0; k < 3; ++k) {
