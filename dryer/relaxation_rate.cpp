@@ -93,4 +93,18 @@ double RelaxationRate::bound(BondBlock& bonds, const Mobility& mobility) {
   return solver.eigenvalues().maxCoeff() / (1 - root * root);
 }
 
+double rate_increase(const BondBlock& bonds, const Mobility& mobility, double radius, std::size_t place, double known) {
+  const auto [displacing, across, turning] = bonds.stiffening_on(place);
+  const double mobile = mobility.translation[place], other = turning / (4.0 / 3.0 * radius * radius);
+  const auto largest = [](const Eigen::Matrix3f& S) {
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> solver;
+    solver.computeDirect(S, Eigen::EigenvaluesOnly);
+    return static_cast<double>(solver.eigenvalues()[2]);
+  };
+  // The norm is cheaper and not below; most particles are far from the stiffest.
+  double rate = std::max<double>(displacing.norm(), across.norm() + other) * mobile;
+  if (rate > known) rate = std::max(largest(displacing), largest(across) + other) * mobile;
+  return rate;
+}
+
 }  // namespace crumble

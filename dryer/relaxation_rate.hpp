@@ -29,4 +29,13 @@ class RelaxationRate {
   std::vector<SixRow> way_, before_;
 };
 
+// By how much the eigenvalues that belong to a place can have grown since stiffness was last remembered, 1/s, an upper
+// bound: the largest eigenvalue of a sum is at most the sum of the largest ones (Weyl), and that of what has been added
+// is found from its energy. The energy of a bond is a square of differences between its ends, and (x - y)^2 <= 2 x^2 +
+// 2 y^2 makes a sum over particles of it: of the displacements with 2 k_n along the normal and 3.5 k_s across it, of
+// the rotations with 3.5 k_s across it, too, rolling and twisting added (3.5 = 1 + 1 + 3/4 + 3/4, since zeta_r = 4/3
+// a^2 zeta). Only a bound above `known` is made sharp; radius: of the place, m.
+double rate_increase(const BondBlock& bonds, const Mobility& mobility, double radius, std::size_t place,
+                     double known = 0);
+
 }  // namespace crumble

@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 #include <omp.h>
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -155,26 +154,6 @@ void Stabilised::gather() {
   }
 }
 
-// By how much the eigenvalues that belong to a particle can have grown since stiffness was last remembered, 1/s, an
-// upper bound: the largest eigenvalue of a sum is at most the sum of the largest ones (Weyl), and that of what has been
-// added is found from its energy. The energy of a bond is a square of differences between its ends, and (x - y)^2 <=
-// 2 x^2 + 2 y^2 makes a sum over particles of it: of the displacements with 2 k_n along the normal and 3.5 k_s across
-// it, of the rotations with 3.5 k_s across it, too, rolling and twisting added (3.5 = 1 + 1 + 3/4 + 3/4, since zeta_r =
-// 4/3 a^2 zeta).
-double Stabilised::increase_at(std::size_t place, double known) const {
-  const auto [displacing, across, turning] = bonds_.stiffening_on(place);
-  const double a = radius_[place], mobile = mobility_.translation[place], other = turning / (4.0 / 3.0 * a * a);
-  const auto largest = [](const Eigen::Matrix3f& S) {
-    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> solver;
-    solver.computeDirect(S, Eigen::EigenvaluesOnly);
-    return static_cast<double>(solver.eigenvalues()[2]);
-  };
-  // The norm is cheaper and not below; most particles are far from the stiffest.
-  double rate = std::max<double>(displacing.norm(), across.norm() + other) * mobile;
-  if (rate > known) rate = std::max(largest(displacing), largest(across) + other) * mobile;
-  return rate;
-}
-
 // Where the surface drags a free particle along, F_c = zeta v at a depth d with F_c = 2 pi sigma sqrt(2 a d); its slope
 // F_c/(2 d), 1/s.
 double Stabilised::surface_rate() const {
@@ -187,11 +166,11 @@ double Stabilised::rate() const {
   double most = 0;
   const std::size_t count = chosen_.size();
 #pragma omp parallel for schedule(static) reduction(max : most) if (count > many)
-  for (std::size_t m = 0; m < count; ++m) most = std::max(most, increase_at(m, most));
+  for (std::size_t m = 0; m < count; ++m) most = std::max(most, rate_increase(bonds_, mobility_, radius_[m], m, most));
   return known_rate_ + most;
 }
 
-// Of one bond between the smallest particles: the largest of the terms of increase_at().
+// Of one bond between the smallest particles: the largest of the terms of rate_increase().
 double Stabilised::rate_of_a_bond() const {
   const double a = smallest_radius();
   const BondLaw law(model_.contact, model_.material, a, a);
@@ -348,7 +327,9 @@ bool Stabilised::meet(std::vector<Pair>& pairs, double limit) {
     const Vector3 D = vector(motion_.position[j]) - vector(motion_.position[i]);
     bonds_.add(make_bond(law, p, other, D, a_p, a_q, state_.state.step), i, j, law, a_p, a_q, law.lost_gap());
     for (const std::int32_t place : {i, j})
-      within_limit = within_limit && known_rate_ + increase_at(static_cast<std::size_t>(place), 0) < limit;
+      within_limit =
+          within_limit &&
+          known_rate_ + rate_increase(bonds_, mobility_, radius_[place], static_cast<std::size_t>(place)) < limit;
     ++statistics_.contacts_made;
   }
   return within_limit;

@@ -41,7 +41,6 @@ class Stabilised : public Integrator {
   double limit_of_rate();
   bool is_stable(double limit);
   double rate() const;
-  double increase_at(std::size_t place, double known) const;
   double rate_of_a_bond() const;
   double surface_rate() const;
   bool nearer(const Pair& places, float gap) const;
