@@ -135,12 +135,17 @@ void Group::unlink(std::string_view path) {
 
 namespace {
 
+// Chunks of more than this are not kept in memory but read and written at once, bytes.
+constexpr std::size_t chunk_cache = 1 << 16;
+
 Handle file_access() {
   Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   // Readable by every tool from HDF5 1.10 on, and by older ones wherever no newer feature is needed.
   H5Pset_libver_bounds(access.get(), H5F_LIBVER_EARLIEST, H5F_LIBVER_V110);
   // Closing the file closes what is still open in it, so that close() means that all is written.
   H5Pset_fclose_degree(access.get(), H5F_CLOSE_STRONG);
+  // A megabyte of each of twenty growing arrays, as is the default, may be more than the agglomerate itself.
+  H5Pset_cache(access.get(), 0, 521, chunk_cache, 0.75);
   return access;
 }
 
