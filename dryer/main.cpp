@@ -1,5 +1,6 @@
 // Dries one droplet of colloid: scene in, agglomerate file out.
 #include <fmt/core.h>
+#include <malloc.h>
 #include <omp.h>
 
 #include <algorithm>
@@ -140,6 +141,8 @@ int dry(int argc, const char* const* argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  // Arrays of many particles go back to the system when they are freed; by default glibc keeps what is allocated again.
+  mallopt(M_MMAP_THRESHOLD, 1 << 17);
   const bool continuum = argc > 1 && std::string_view(argv[1]) == "continuum";
   return run_program("dryer", [&] { return continuum ? continuum_command(argc - 1, argv + 1) : dry(argc, argv); });
 }
