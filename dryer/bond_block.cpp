@@ -24,11 +24,13 @@ void BondBlock::each_array(Visit visit) {
   for (auto* triple : {&apart_, &normal_, &sliding_, &rolling_})
     for (auto& array : *triple) visit(array);
   for (auto* scalar : {&twisting_, &gap_, &lost_gap_, &holds_, &slope_, &remembered_}) visit(*scalar);
-  for (auto& array : constants_) visit(array);
+  if (!uniform_)
+    for (auto& array : constants_) visit(array);
 }
 
 void BondBlock::clear(std::size_t places, std::size_t expected) {
   count_ = 0;
+  uniform_ = true;
   // Arrays that grow by themselves take up to twice the memory.
   const std::size_t room = padded(expected + expected / 32 + 1);
   each_array([room](auto& array) {
@@ -96,11 +98,21 @@ void BondBlock::add(const Contact& bond, std::int32_t i, std::int32_t j, const B
                                                     farthest(law.F_s_crit, law.k_s),
                                                     farthest(law.M_t_crit, law.k_t),
                                                     farthest(law.M_r_crit, law.k_r)};
-  if (count_ == 0) uniform_ = true;
-  for (std::size_t c = 0; c < constant_count; ++c) {
-    put(constants_[c], value[c]);
-    uniform_ = uniform_ && constants_[c][count_] == constants_[c][0];
+  if (count_ == 0) {
+    uniform_ = true;
+    for (std::size_t c = 0; c < constant_count; ++c) constants_[c].assign(lanes, static_cast<float>(value[c]));
   }
+  bool same = true;
+  for (std::size_t c = 0; c < constant_count; ++c) same = same && static_cast<float>(value[c]) == constants_[c][0];
+  if (uniform_ && !same) {
+    uniform_ = false;
+    for (auto& array : constants_) {
+      array.reserve(born_.capacity());
+      array.resize(padded(count_), array[0]);
+    }
+  }
+  if (!uniform_)
+    for (std::size_t c = 0; c < constant_count; ++c) put(constants_[c], value[c]);
   link(i, end_of(count_, 0));
   link(j, end_of(count_, 1));
   ++count_;

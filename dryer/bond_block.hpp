@@ -108,8 +108,8 @@ class BondBlock {
   std::vector<std::int64_t> born_;
   Triple apart_, normal_, sliding_, rolling_;  // apart: from i to j, m
   std::vector<float> twisting_, gap_, lost_gap_;
-  std::array<std::vector<float>, constant_count> constants_;
-  bool uniform_ = true;            // all bonds have the same constants
+  std::array<std::vector<float>, constant_count> constants_;  // if uniform, of one register of bonds
+  bool uniform_ = true;                                       // all bonds have the same constants
   std::vector<SixRow> loads_;      // of bonds on places; index: end, as many zeros first as a register has ends
   std::vector<float> holds_;       // 1; 0 if the bond is beyond its reach
   std::vector<float> slope_;       // of the normal force, N/m
