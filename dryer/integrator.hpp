@@ -44,7 +44,8 @@ class Integrator {
   virtual void recall(const Memory& memory);
 
  protected:
-  // skin: how far beyond contact near pairs are listed; all with a gap below `complete` are. In the smallest radius.
+  // skin: how far beyond contact near pairs are listed; all with a gap below `complete` are. In the smallest radius. 0
+  // if open_ is not used.
   Integrator(const DryingModel& model, Agglomerate& state, double skin, double complete = 0);
 
   struct Motion {

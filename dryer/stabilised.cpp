@@ -102,7 +102,7 @@ void Stabilised::choose(double R_end) {
     moved = !((f.position[p] - reference_[p]).squaredNorm() < far * far);
   if (moved) {
     reference_ = f.position;
-    search_.find(f.position, state_.particles.radius, control_.skin() * a, listed_);
+    NeighbourSearch().find(f.position, state_.particles.radius, control_.skin() * a, listed_);
   }
   std::vector<Pair> pairs = within(control_.near() * a);
   std::erase_if(pairs, [&](const Pair& p) { return !activity_.is_active(p.i) && !activity_.is_active(p.j); });
@@ -141,6 +141,7 @@ void Stabilised::gather() {
   }
   // In the order of their first place, for the cache.
   std::vector<std::pair<std::int32_t, std::int32_t>> order;
+  order.reserve(f.contacts.size());
   for (std::size_t b = 0; b < f.contacts.size(); ++b)
     order.emplace_back(std::min(place_[f.contacts[b].i], place_[f.contacts[b].j]), static_cast<std::int32_t>(b));
   std::sort(order.begin(), order.end());

@@ -56,8 +56,7 @@ class Stabilised : public Integrator {
   std::vector<Pair> within(double gap) const;
 
   StabilisedControl control_;
-  double next_dt_ = 0;  // s
-  NeighbourSearch search_;
+  double next_dt_ = 0;              // s
   std::vector<Pair> listed_;        // all pairs within the skin of where their particles were, sorted
   std::vector<Vector3> reference_;  // there
   std::vector<std::int32_t> chosen_, place_;
