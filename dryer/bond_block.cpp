@@ -83,7 +83,7 @@ void BondBlock::add(const Contact& bond, std::int32_t i, std::int32_t j, const B
   put(gap_, bond.gap);
   put(lost_gap_, lost_gap);
   put(holds_, 1);
-  put(slope_, law.jkr.state(bond.gap).stiffness);
+  put(slope_, 0);
   put(remembered_, -1);
   const std::array<double, constant_count> value = {a_i,
                                                     a_j,
@@ -276,9 +276,10 @@ Lane BondBlock::slope(std::size_t b) const {
   return (9 * constant(pull_off, b) * scale * root * root * (2 * cubed - 1) / (6 * cubed - 1)).max(0);
 }
 
-void BondBlock::find_stiffness() {
-#pragma omp parallel for schedule(static) if (count_ >= many)
-  for (std::size_t b = 0; b < count_; b += lanes) write(&slope_[b], slope(b));
+void BondBlock::find_stiffness(std::size_t from) {
+  const std::size_t first = from / lanes * lanes;
+#pragma omp parallel for schedule(static) if (count_ - first >= many)
+  for (std::size_t b = first; b < count_; b += lanes) write(&slope_[b], slope(b));
 }
 
 // The law of move() to first order in the ways.

@@ -46,8 +46,8 @@ class BondBlock {
   // Force and torque of the bonds on a place, N and N m.
   Six load_on(std::size_t place) const;
 
-  // For stability. The stiffness is that of the last find_stiffness() or add().
-  void find_stiffness();
+  // For stability. The stiffness is that of the last find_stiffness(), of all bonds or of the last ones.
+  void find_stiffness(std::size_t from = 0);
   // Loads of the bonds as linear springs, without history, for small ways of the places; in the place of those of
   // advance().
   void respond(const std::vector<SixRow>& ways);

@@ -327,6 +327,7 @@ bool Stabilised::meet(std::vector<Pair>& pairs, double limit) {
     const BondLaw& law = laws_(p, other);
     const Vector3 D = vector(motion_.position[j]) - vector(motion_.position[i]);
     bonds_.add(make_bond(law, p, other, D, a_p, a_q, state_.state.step), i, j, law, a_p, a_q, law.lost_gap());
+    bonds_.find_stiffness(bonds_.size() - 1);
     for (const std::int32_t place : {i, j})
       within_limit =
           within_limit &&
