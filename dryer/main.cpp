@@ -3,7 +3,6 @@
 #include <malloc.h>
 #include <omp.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <string_view>
 
@@ -40,10 +39,7 @@ ProgramDescription description() {
 }
 
 // How many of the frames after the first are due: those whose radius the front has passed, and the last one at the end.
-int frames_due(const DryingScene& scene, const DryingRun& run) {
-  const auto passed = std::upper_bound(scene.frames.begin(), scene.frames.end(), run.fraction()) - scene.frames.begin();
-  return static_cast<int>(passed) + (run.finished() ? 1 : 0);
-}
+int frames_due(const DryingRun& run) { return run.frames_passed() + (run.finished() ? 1 : 0); }
 
 void advance(DryingRun& run, ProgressPrinter& progress) {
   run.step();
@@ -69,7 +65,7 @@ AgglomerateWriter open_writer(const CommandLine& line, const Scene& scene, const
 }
 
 // Steps to the end and writes the frames that fall due. Whatever ends it early leaves a checkpoint.
-void run_to_the_end(DryingRun& run, const DryingScene& scene, AgglomerateWriter& writer, DryingCheckpoint& checkpoint,
+void run_to_the_end(DryingRun& run, AgglomerateWriter& writer, DryingCheckpoint& checkpoint,
                     const std::optional<DryingOutcome>& companion, ProgressPrinter& progress) {
   int frames = checkpoint.found() ? checkpoint.frames() : 0;
   std::int64_t last_frame_step = checkpoint.found() ? checkpoint.last_frame_step() : 0;
@@ -82,7 +78,7 @@ void run_to_the_end(DryingRun& run, const DryingScene& scene, AgglomerateWriter&
     if (frames == 0) frame(1);
     while (!run.finished()) {
       advance(run, progress);
-      if (frames_due(scene, run) >= frames) frame(frames_due(scene, run) + 1);
+      if (frames_due(run) >= frames) frame(frames_due(run) + 1);
       if (interrupt_signal())
         throw Interrupted(interrupt_signal(), fmt::format("stopped at t = {:g} s", run.state().state.time));
     }
@@ -125,7 +121,7 @@ int dry(int argc, const char* const* argv) {
   DryingRun run = checkpoint.found() ? checkpoint.resume(scene) : DryingRun(scene, 1);
   AgglomerateWriter writer = checkpoint.found() ? AgglomerateWriter::resume(line.output, checkpoint.last_frame_step())
                                                 : open_writer(line, text, provenance, run);
-  run_to_the_end(run, scene, writer, checkpoint, companion, progress);
+  run_to_the_end(run, writer, checkpoint, companion, progress);
 
   const Morphology result = morphology(run.state().particles, run.state().state);
   write_morphology(writer, result);

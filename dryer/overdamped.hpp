@@ -1,4 +1,5 @@
-// The default integrator: no inertia, implicit contacts, steps as long as the motion is smooth.
+// No inertia, implicit contacts, steps as long as the motion is smooth: a second opinion beside stabilised.hpp, and for
+// any contact law.
 #pragma once
 
 #include "dryer/implicit_step.hpp"

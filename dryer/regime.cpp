@@ -44,12 +44,8 @@ std::string DryingRegime::words() const {
 }
 
 std::string integrator_text(const DryingScene& s) {
-  return s.stabilised
-             ? fmt::format(
-                   "explicit stabilised steps (the rule: for more than {} particles at D = 0): an evaluation costs the "
-                   "same for every particle",
-                   DryingScene::most_implicit)
-             : fmt::format("implicit steps (the rule: for up to {} particles at D = 0)", DryingScene::most_implicit);
+  return s.stabilised ? "explicit stabilised steps: as many evaluations as the stiffest contact asks for, no equations"
+                      : "implicit steps: as long as the motion is smooth, each the solution of equations for all";
 }
 
 std::vector<std::string> describe(const DryingScene& s) {

@@ -1,5 +1,7 @@
 #include "dryer/run.hpp"
 
+#include <algorithm>
+
 #include "dryer/brownian.hpp"
 #include "dryer/inertial.hpp"
 #include "dryer/start.hpp"
@@ -49,8 +51,22 @@ DryingRun::DryingRun(const DryingScene& scene, double coarsening, Agglomerate st
   integrator_->recall(memory);
 }
 
+int DryingRun::frames_passed() const {
+  constexpr double rounding = 1e-9;
+  const auto& frames = scene_.frames;
+  return static_cast<int>(std::upper_bound(frames.begin(), frames.end(), fraction() + rounding) - frames.begin());
+}
+
+// Steps of free length end at frames; those with Brownian motion or inertia are much shorter.
+double DryingRun::latest_time() const {
+  const Front& front = integrator_->front();
+  const auto next = static_cast<std::size_t>(frames_passed());
+  if (scene_.model.thermal_energy > 0 || scene_.inertial || next == scene_.frames.size()) return front.end();
+  return std::min(front.end(), front.time_at((1 - scene_.frames[next]) * scene_.model.droplet.initial_radius));
+}
+
 void DryingRun::step() {
-  integrator_->step(integrator_->front().end());
+  integrator_->step(latest_time());
   if (scene_.diffuses() && stage_ + 1 < stages_.size() && outgrows_stage()) enter_next_stage();
 }
 

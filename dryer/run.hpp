@@ -24,6 +24,8 @@ class DryingRun {
 
   double droplet_radius() const { return integrator_->front().radius(state_.state.time); }
   double fraction() const { return 1 - droplet_radius() / scene_.model.droplet.initial_radius; }
+  // How many of the scene's frames the front has come to.
+  int frames_passed() const;
 
   const Agglomerate& state() const { return state_; }
   const Integrator& integrator() const { return *integrator_; }
@@ -38,6 +40,7 @@ class DryingRun {
 
  private:
   DryingRun(const DryingScene& scene, double coarsening, Agglomerate state, std::size_t stage);
+  double latest_time() const;
   bool outgrows_stage() const;
   void enter_next_stage();
 

@@ -34,7 +34,7 @@ std::vector<double> frames(const Scene& scene) {
   return fraction;
 }
 
-// Implicit steps are the better known ones; the factors that they need grow faster than the number of particles.
+// The rule at D = 0: stabilised steps wherever they know the contact law.
 bool is_stabilised(const Scene& scene, const DryingScene& s) {
   const std::string method = scene.choice("integrator.method");
   const bool by_name = method == "stabilised" || method == "implicit";
@@ -43,8 +43,7 @@ bool is_stabilised(const Scene& scene, const DryingScene& s) {
   if (method == "stabilised" && s.model.contact.normal != NormalLaw::jkr)
     throw scene.error("integrator.method", "knows the contact law jkr only; set \"implicit\"");
   if (by_name) return method == "stabilised";
-  return method == "overdamped" && s.model.thermal_energy == 0 && s.model.contact.normal == NormalLaw::jkr &&
-         s.radius.size() > DryingScene::most_implicit;
+  return method == "overdamped" && s.model.thermal_energy == 0 && s.model.contact.normal == NormalLaw::jkr;
 }
 
 }  // namespace

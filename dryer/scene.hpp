@@ -14,8 +14,6 @@ namespace crumble {
 const ParameterTable& drying_parameters();
 
 struct DryingScene {
-  static constexpr std::size_t most_implicit = 500;  // particles, at D = 0 and unless the scene says otherwise
-
   double nominal_radius = 0;   // a of the scene: of Pe, D; equal to all of the following unless they are distributed, m
   std::vector<double> radius;  // one a particle, descending, m
   double surface_tension = 0;  // sigma of the liquid, N/m; the model's has the factor of the contact angle

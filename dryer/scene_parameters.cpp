@@ -93,10 +93,10 @@ const ParameterTable& drying_parameters() {
             .by_default(1)}},
       {"integrator",
        "How the equations are solved.",
-       {P::choice(
-            "method", {"overdamped", "implicit", "stabilised", "inertial"},
-            "overdamped: no inertia; two fixed rates with Brownian motion; at D = 0 implicit up to 500 particles and "
-            "stabilised above, which can be asked for by name; inertial: the paper's scheme, fixed step, slow")
+       {P::choice("method", {"overdamped", "implicit", "stabilised", "inertial"},
+                  "overdamped: no inertia; two fixed rates with Brownian motion; at D = 0 stabilised, or implicit "
+                  "where the contact "
+                  "law is not jkr; both can be asked for by name; inertial: the paper's scheme, fixed step, slow")
             .by_default("overdamped"),
         P::real("largest_displacement", "", "implicit and stabilised: largest motion of a particle in one step, in a")
             .above(0)

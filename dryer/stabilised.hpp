@@ -1,4 +1,4 @@
-// The integrator for very many particles without Brownian motion: no inertia, explicit stabilised steps.
+// The default integrator without Brownian motion: no inertia, explicit stabilised steps.
 #pragma once
 
 #include "common/numerics/neighbours.hpp"

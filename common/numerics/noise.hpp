@@ -36,8 +36,8 @@ inline std::array<std::uint32_t, 4> random_words(std::uint64_t seed, Purpose pur
   return {words[0], words[1], words[2], words[3]};
 }
 
-// The same words for many particles at once, out[k][p] = random_words(seed, purpose, particle[p], index)[k], in registers
-// of eight: four times as fast.
+// The same words for many particles at once, out[k][p] = random_words(seed, purpose, particle[p], index)[k], in
+// registers of eight: four times as fast.
 void random_words(std::uint64_t seed, Purpose purpose, std::span<const std::uint32_t> particle, std::uint64_t index,
                   const std::array<std::uint32_t*, 4>& out);
 
