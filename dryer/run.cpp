@@ -22,10 +22,10 @@ std::unique_ptr<Integrator> make_integrator(const DryingScene& scene, const Dryi
   if (scene.stabilised)
     return std::make_unique<Stabilised>(model, state,
                                         StabilisedControl{coarsening * scene.control.largest_displacement});
-  OverdampedControl control = scene.control;
+  ImplicitControl control = scene.control;
   control.largest_displacement *= coarsening;
   control.contact_precision *= coarsening;
-  return std::make_unique<Overdamped>(model, state, control);
+  return std::make_unique<Implicit>(model, state, control);
 }
 
 }  // namespace

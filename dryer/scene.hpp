@@ -5,8 +5,8 @@
 
 #include "common/io/parameters.hpp"
 #include "dryer/brownian.hpp"
+#include "dryer/implicit.hpp"
 #include "dryer/model.hpp"
-#include "dryer/overdamped.hpp"
 #include "dryer/stabilised.hpp"
 
 namespace crumble {
@@ -23,7 +23,7 @@ struct DryingScene {
   bool inertial = false;
   bool stabilised = false;  // explicit stabilised steps where there is no Brownian motion, else implicit ones
   double step = 0;          // inertial only, s
-  OverdampedControl control;
+  ImplicitControl control;
   BrownianControl brownian;
   double softening = 1;        // of the contacts while particles diffuse
   std::vector<double> frames;  // fractions 1 - R/R0 at which one is due, in order, besides the start and the end

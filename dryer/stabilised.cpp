@@ -16,8 +16,9 @@ namespace crumble {
 
 namespace {
 
-// Of the front within a step(), in the largest displacement of a stabilised step.
-constexpr double steps_in_one = 8;
+// Of the front within a step(), in the largest displacement of a stabilised step. Behind a crust, whose hindrance
+// stands for a step(), no more than that.
+constexpr double steps_in_one = 8, steps_behind_crust = 1;
 // Within a stabilised step there is room for a bond more on every particle, and for bonds pressed to so much more.
 constexpr double room = 0.05;
 // Evaluations from one look at stiffness, displacements and pairs to the next.
@@ -57,7 +58,8 @@ double Stabilised::time_of_travel(double radii) const {
 void Stabilised::step(double latest_time) {
   Frame& f = state_.state;
   const double begin = f.time;
-  const double end = std::min(begin + time_of_travel(steps_in_one * control_.largest_displacement), latest_time);
+  const double steps = front_.may_slow_down() ? steps_behind_crust : steps_in_one;
+  const double end = std::min(begin + time_of_travel(steps * control_.largest_displacement), latest_time);
   choose(front_.radius(end));
   gather();
   if (next_dt_ == 0) next_dt_ = end - begin;

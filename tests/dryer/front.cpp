@@ -4,7 +4,7 @@
 #include <fmt/core.h>
 #include <gtest/gtest.h>
 
-#include "dryer/overdamped.hpp"
+#include "dryer/implicit.hpp"
 #include "dryer/run.hpp"
 #include "tests/dryer/samples.hpp"
 
@@ -40,7 +40,7 @@ TEST(Front, takes_as_long_as_the_law_integrates_to) {
   model.crust_diffusivity = 0.01;
   const double a = 50e-9, r = 120e-9, R0 = model.droplet.initial_radius;
   Agglomerate s = spheres({Vector3(r, 0, 0)}, a);
-  Overdamped integrator(model, s, {.largest_displacement = 1e-3});
+  Implicit integrator(model, s, {.largest_displacement = 1e-3});
   while (s.state.time < integrator.front().end()) integrator.step(integrator.front().end());
   const double c = a * a / (4 * r * r);
   const double expected = 1 + c * 99 * r * r / (R0 * R0) * (1 - 2.0 / 3.0 * r / (r + a));

@@ -13,8 +13,8 @@
 #include "common/agglomerate/morphology.hpp"
 #include "dryer/brownian.hpp"
 #include "dryer/drag.hpp"
+#include "dryer/implicit.hpp"
 #include "dryer/inertial.hpp"
-#include "dryer/overdamped.hpp"
 #include "dryer/stabilised.hpp"
 #include "tests/dryer/samples.hpp"
 
@@ -35,7 +35,7 @@ struct HardCase {
 
 std::unique_ptr<Integrator> integrator(Method method, const DryingModel& model, Agglomerate& state) {
   if (method == Method::overdamped)
-    return std::make_unique<Overdamped>(model, state, OverdampedControl{.largest_displacement = 0.05});
+    return std::make_unique<Implicit>(model, state, ImplicitControl{.largest_displacement = 0.05});
   if (method == Method::stabilised)
     return std::make_unique<Stabilised>(model, state, StabilisedControl{.largest_displacement = 0.05});
   if (method == Method::brownian) return std::make_unique<Brownian>(model, state, 1, BrownianControl{});
@@ -309,7 +309,7 @@ void start_and_step_a_hundred_thousand(Run make) {
 
 TEST(HardCases, a_hundred_thousand_particles_start_and_step_in_600_bytes_each_by_implicit_steps) {
   start_and_step_a_hundred_thousand([](const DryingModel& model, Agglomerate& state) {
-    return std::make_unique<Overdamped>(model, state, OverdampedControl{.largest_displacement = 0.05});
+    return std::make_unique<Implicit>(model, state, ImplicitControl{.largest_displacement = 0.05});
   });
 }
 

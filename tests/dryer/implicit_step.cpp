@@ -5,7 +5,7 @@
 #include "common/agglomerate/bond.hpp"
 #include "common/numerics/noise.hpp"
 #include "dryer/drag.hpp"
-#include "dryer/overdamped.hpp"
+#include "dryer/implicit.hpp"
 #include "tests/dryer/samples.hpp"
 
 using namespace crumble;

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "common/agglomerate/morphology.hpp"
-#include "dryer/overdamped.hpp"
+#include "dryer/stabilised.hpp"
 #include "tests/dryer/samples.hpp"
 
 using namespace crumble;
@@ -22,7 +22,7 @@ Means five_starts(const ContactChoice& contact) {
     model.contact = contact;
     Agglomerate state = samples::start(115, 215e-9, seed);
     // Steps of 0.05 a: contacts and d_c differ from those at 0.01 a by far less than the scatter of the starts.
-    Overdamped integrator(model, state, {.largest_displacement = 0.05});
+    Stabilised integrator(model, state, {.largest_displacement = 0.05});
     while (state.state.time < model.droplet.lifetime) integrator.step(model.droplet.lifetime);
     const Morphology m = morphology(state.particles, state.state);
     means.d_c += 0.2e9 * m.extent.diameter();

@@ -7,7 +7,7 @@
 
 #include "common/agglomerate/bond.hpp"
 #include "common/agglomerate/morphology.hpp"
-#include "dryer/overdamped.hpp"
+#include "dryer/implicit.hpp"
 #include "tests/dryer/samples.hpp"
 
 using namespace crumble;
@@ -71,8 +71,8 @@ TEST(Stabilised, dries_the_same_granule_as_the_implicit_integrator) {
                                  const StabilisedControl& c) { return std::make_unique<Stabilised>(m, s, c); },
                               seed, StabilisedControl{0.01});
     const Granule other = dried([](const DryingModel& m, Agglomerate& s,
-                                   const OverdampedControl& c) { return std::make_unique<Overdamped>(m, s, c); },
-                                seed, OverdampedControl{0.01});
+                                   const ImplicitControl& c) { return std::make_unique<Implicit>(m, s, c); },
+                                seed, ImplicitControl{0.01});
     const double d_c = other.morphology.extent.diameter();
     EXPECT_NEAR(one.morphology.extent.diameter(), d_c, 0.005 * d_c) << seed;
     EXPECT_NEAR(static_cast<double>(one.contacts), static_cast<double>(other.contacts), 1) << seed;

@@ -1,4 +1,4 @@
-#include "dryer/overdamped.hpp"
+#include "dryer/implicit.hpp"
 
 #include <fmt/core.h>
 
@@ -18,11 +18,11 @@ constexpr double too_far = 1.5;
 
 // How much nearer a pair may come in one step, in the smallest radius. Pairs within it are always listed, so that what
 // a step finds does not depend on when the list was made, and so not on a restart.
-double approach(const OverdampedControl& control) { return 2 * too_far * snap * control.largest_displacement; }
+double approach(const ImplicitControl& control) { return 2 * too_far * snap * control.largest_displacement; }
 
 }  // namespace
 
-Overdamped::Overdamped(const DryingModel& model, Agglomerate& state, const OverdampedControl& control)
+Implicit::Implicit(const DryingModel& model, Agglomerate& state, const ImplicitControl& control)
     : Integrator(model, state, 0.2 + approach(control), approach(control)),
       control_(control),
       implicit_(model, state, laws_),
@@ -31,14 +31,14 @@ Overdamped::Overdamped(const DryingModel& model, Agglomerate& state, const Overd
     if (field->size() != state.particles.size()) field->assign(state.particles.size(), Vector3::Zero());
 }
 
-Integrator::Memory Overdamped::memory() const {
+Integrator::Memory Implicit::memory() const {
   Memory memory = Integrator::memory();
   memory.numbers.push_back(next_dt_);
   for (const Vector6& rate : rate_) memory.numbers.insert(memory.numbers.end(), rate.begin(), rate.end());
   return memory;
 }
 
-void Overdamped::recall(const Memory& memory) {
+void Implicit::recall(const Memory& memory) {
   Integrator::recall(memory);
   next_dt_ = memory.numbers.at(1);
   for (std::size_t p = 0; p < rate_.size(); ++p)
@@ -46,7 +46,7 @@ void Overdamped::recall(const Memory& memory) {
 }
 
 // The step that moves the front by the largest displacement allowed, or up to the next particle if nothing moves.
-double Overdamped::proposal(double latest_time) const {
+double Implicit::proposal(double latest_time) const {
   const Frame& f = state_.state;
   const double R = front_.radius(f.time);
   // Behind a crust the front has to be followed even where it touches nobody.
@@ -68,7 +68,7 @@ double Overdamped::proposal(double latest_time) const {
   return std::min(dt, latest_time - f.time);
 }
 
-void Overdamped::step(double latest_time) {
+void Implicit::step(double latest_time) {
   double dt = proposal(latest_time);
   const double start = dt;
   for (int tries = 0; tries < 60; ++tries) {
@@ -83,19 +83,19 @@ void Overdamped::step(double latest_time) {
       state_.state.step, state_.state.time, start, dt, state_.particles.size(), state_.state.contacts.size()));
 }
 
-void Overdamped::refresh() {
+void Implicit::refresh() {
   if (!network_changed_) return;
   implicit_.set_network(activity_.active());
   network_changed_ = false;
 }
 
-void Overdamped::predict(double dt) {
+void Implicit::predict(double dt) {
   const auto& active = activity_.active();
   for (std::size_t k = 0; k < active.size(); ++k) implicit_.increments()[k] = dt * rate_[active[k]];
 }
 
 // In the radius.
-double Overdamped::displacement() {
+double Implicit::displacement() {
   moves_.clear();
   const auto& active = activity_.active();
   for (std::size_t k = 0; k < active.size(); ++k)
@@ -103,11 +103,11 @@ double Overdamped::displacement() {
   return largest_but_snaps(moves_);
 }
 
-Vector3 Overdamped::moved(std::int32_t p) const { return state_.state.position[p] + implicit_.translation(p); }
+Vector3 Implicit::moved(std::int32_t p) const { return state_.state.position[p] + implicit_.translation(p); }
 
 // Open pairs that overlap by more than the precision at the end of the step, each with the fraction of the step at
 // which it touches, by the secant.
-void Overdamped::find_touches() {
+void Implicit::find_touches() {
   const Frame& f = state_.state;
   touches_.clear();
   for (const Pair& pair : open_.pairs()) {
@@ -124,7 +124,7 @@ void Overdamped::find_touches() {
 }
 
 // Bonds them for what is left of the step after their touch: their springs start with what they must not remember.
-void Overdamped::bond_touches() {
+void Implicit::bond_touches() {
   for (const auto& [pair, fraction] : touches_) {
     const Motion i = motion_of(pair.i), j = motion_of(pair.j);
     Contact& made = bond(pair);
@@ -140,7 +140,7 @@ void Overdamped::bond_touches() {
   network_changed_ = true;
 }
 
-void Overdamped::take_back_bonds() {
+void Implicit::take_back_bonds() {
   if (provisional_.empty()) return;
   std::sort(provisional_.begin(), provisional_.end());
   std::erase_if(state_.state.contacts, [&](const Contact& c) {
@@ -151,7 +151,7 @@ void Overdamped::take_back_bonds() {
   network_changed_ = true;
 }
 
-Overdamped::Attempt Overdamped::attempt(double dt) {
+Implicit::Attempt Implicit::attempt(double dt) {
   const double R = front_.radius(state_.state.time + dt);
   if (activity_.front_at(R)) network_changed_ = true;
   refresh();
@@ -175,7 +175,7 @@ Overdamped::Attempt Overdamped::attempt(double dt) {
   return {true, 0};
 }
 
-void Overdamped::accept(double dt) {
+void Implicit::accept(double dt) {
   Frame& f = state_.state;
   const auto& active = activity_.active();
   for (std::size_t k = 0; k < active.size(); ++k) {

@@ -7,7 +7,7 @@
 
 namespace crumble {
 
-struct OverdampedControl {
+struct ImplicitControl {
   double largest_displacement = 0.01;  // of any particle in one step, in its radius
   double contact_precision = 1e-4;     // overlap that no bond holds at the end of a step, in the radius
 };
@@ -15,9 +15,9 @@ struct OverdampedControl {
 // Steps through the drying with ImplicitStep. Whatever overlaps at the end of a step by more than contact_precision is
 // bonded within the step, its springs loaded from the touch on, and the step is solved again with the new bonds until
 // nothing more overlaps. So contacts do not limit the steps, however many there are.
-class Overdamped : public Integrator {
+class Implicit : public Integrator {
  public:
-  Overdamped(const DryingModel& model, Agglomerate& state, const OverdampedControl& control);
+  Implicit(const DryingModel& model, Agglomerate& state, const ImplicitControl& control);
 
   // One accepted step; the front does not pass the radius at `latest_time`. Throws std::runtime_error naming time, step
   // and the worst particle if no step length converges.
@@ -45,7 +45,7 @@ class Overdamped : public Integrator {
   void accept(double dt);
   void refresh();
 
-  OverdampedControl control_;
+  ImplicitControl control_;
   ImplicitStep implicit_;
   bool network_changed_ = true;
   double next_dt_ = 0;  // proposal of the step control, s
