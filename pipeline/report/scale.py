@@ -2,8 +2,8 @@
 """Time, memory and morphology against the number of particles: scale.py DRYER SCENE FOLDER N...
 
 Dries each droplet on all cores; up to 20,000 particles also on one thread, for the speed-up and to see that the granules are the same to the
-bit. Cost: wall time on all cores a particle and evaluation, of awake particles. Growth: exponent of the cost of an evaluation of the whole
-droplet, at equal share of awake ones, between one number and the next. Bytes: peak memory of the process above that of a droplet of ten."""
+bit. Cost: wall time on all cores a particle and evaluation, of awake particles. Growth: exponent of the wall time of an evaluation of the
+droplet as it is, idle particles and all, between one number and the next; on one thread where both were dried on it. Bytes: peak memory of the process above that of a droplet of ten."""
 
 import hashlib
 import json
@@ -35,6 +35,14 @@ def dry(dryer, scene, folder, number, threads):
     return report
 
 
+def growth(before, after):
+    """before, after: (number, wall time of an evaluation by the number of threads)."""
+    if before is None:
+        return ""
+    threads = min(before[1].keys() & after[1].keys())
+    return f"{math.log(after[1][threads] / before[1][threads]) / math.log(after[0] / before[0]):.2f}"
+
+
 def rows(dryer, scene, folder, numbers):
     cores = os.cpu_count()
     base = dry(dryer, scene, folder, 10, 1)["peak_rss_bytes"]
@@ -42,19 +50,18 @@ def rows(dryer, scene, folder, numbers):
     for number in sorted(numbers):
         many = dry(dryer, scene, folder, number, cores)
         result = many["results"]
+        step = {cores: many["wall_s"] / many["steps"]}
+        alone = ["", "", ""]
         if number <= LARGEST_ON_ONE_THREAD:
             one = dry(dryer, scene, folder, number, 1)
+            step[1] = one["wall_s"] / one["steps"]
             alone = [f"{one['wall_s']:.1f}", f"{one['wall_s'] / many['wall_s']:.2f}",
                      "yes" if one["bits"] == many["bits"] else "NO"]
-        else:
-            alone = ["", "", ""]
-        cost = many["wall_s"] / result["particle_steps"]
-        growth = f"{1 + math.log(cost / before[1]) / math.log(number / before[0]):.2f}" if before else ""
-        before = (number, cost)
         yield [str(number), str(many["steps"]), f"{100 * (1 - result['particle_steps'] / many['steps'] / number):.0f}",
-               f"{many['wall_s']:.1f}", f"{many['cpu_s']:.1f}", *alone, f"{1e9 * cost:.1f}", growth,
-               f"{(many['peak_rss_bytes'] - base) / number:.0f}", f"{result['d_c_nm'] / 1e3:.3f}",
-               f"{result['h_c_over_d_c']:.3f}", str(result["contacts"]), str(result["fragments"])]
+               f"{many['wall_s']:.1f}", f"{many['cpu_s']:.1f}", *alone, f"{1e9 * many['wall_s'] / result['particle_steps']:.1f}",
+               growth(before, (number, step)), f"{(many['peak_rss_bytes'] - base) / number:.0f}",
+               f"{result['d_c_nm'] / 1e3:.3f}", f"{result['h_c_over_d_c']:.3f}", str(result["contacts"]), str(result["fragments"])]
+        before = (number, step)
 
 
 def main():

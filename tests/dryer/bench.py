@@ -25,11 +25,13 @@ from table import print_markdown, write_records  # noqa: E402
 
 SOFT = {"material.youngs_modulus": "3.4e7"}  # a hundredth, at the same surface energy
 STEP = "integrator.largest_displacement"
+IMPLICIT = {"integrator.method": "implicit"}
 # scene, seeds a case over --seeds, Peclet number, reference, cases
 ROWS = {
     "hollow": ("pipeline/scenes/hollow.toml", 1, None, ("inertial, full stiffness", {"integrator.method": "inertial"}),
                {"displacement 0.1 a": {STEP: "0.1"}, "displacement 0.05 a": {STEP: "0.05"}, "default: 0.02 a": {},
-                "displacement 0.01 a": {STEP: "0.01"}, "displacement 0.005 a": {STEP: "0.005"}, "E / 100": SOFT}),
+                "displacement 0.01 a": {STEP: "0.01"}, "displacement 0.005 a": {STEP: "0.005"}, "E / 100": SOFT,
+                "implicit, 0.02 a": IMPLICIT, "implicit, 0.005 a": IMPLICIT | {STEP: "0.005"}}),
     "intermediate": ("pipeline/scenes/intermediate.toml", 2, 10, ("softening 1", {"integrator.softening": "1"}),
                      {"softening 3": {"integrator.softening": "3"}, "softening 2": {"integrator.softening": "2"}, "default": {},
                       "half the step": {"integrator.contact_step": "0.075"}}),
