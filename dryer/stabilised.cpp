@@ -33,6 +33,12 @@ std::uint64_t spread(std::uint64_t x) {
   return (x | x << 2) & 0x1249249249249249;
 }
 
+// clear() would keep the memory.
+template <class... Arrays>
+void release(Arrays&... arrays) {
+  ((arrays = Arrays()), ...);
+}
+
 // Neighbours in space get neighbouring places, so that what a bond reads is in the cache.
 std::uint64_t morton(const Vector3& x, double width) {
   std::uint64_t key = 0;
@@ -68,15 +74,20 @@ void Stabilised::step(double latest_time) {
     ++f.step;  // frames need numbers that grow
     ++statistics_.steps;
   }
-  meet(open_pairs_, 0);
-  while (f.time < end) {
-    stabilised_step(end);
-    // Within the next more pairs may come near.
-    if (farthest() + control_.largest_displacement > 0.5 * control_.near()) break;
+  try {
+    meet(open_pairs_, 0);
+    while (f.time < end) {
+      stabilised_step(end);
+      // Within the next more pairs may come near.
+      if (farthest() + control_.largest_displacement > 0.5 * control_.near()) break;
+    }
+    bonds_.advance(motion_);
+    lose();
+    put_back(begin);
+  } catch (...) {  // the state may be saved
+    if (f.contacts.empty()) bonds_.hand_back(chosen_, laws_, f.contacts);
+    throw;
   }
-  bonds_.advance(motion_);
-  lose();
-  put_back(begin);
   front_.follow(state_);
 }
 
@@ -123,24 +134,13 @@ void Stabilised::choose(double R_end) {
     place_[p] = static_cast<std::int32_t>(chosen_.size());
     chosen_.push_back(p);
   }
-  open_pairs_.clear();
-  closest_.clear();  // lost at the end of the last step(): places are others now
   for (const Pair& pair : pairs) open_pairs_.push_back({place_[pair.i], place_[pair.j]});
 }
 
+// Bonds are in the frame or in the block, not in both: each is a fourth of all memory.
 void Stabilised::gather() {
-  const Frame& f = state_.state;
+  Frame& f = state_.state;
   const std::size_t count = chosen_.size();
-  motion_.resize(count);
-  mobility_.resize(count);
-  radius_.assign(padded(count), 0);
-  for (std::size_t m = 0; m < count; ++m) {
-    const double a = state_.particles.radius[chosen_[m]];
-    motion_.position[m] = double_row(f.position[chosen_[m]]);
-    mobility_.translation[m] = static_cast<float>(1 / drag_coefficient(model_.viscosity, a));
-    mobility_.rotation[m] = static_cast<float>(1 / rotational_drag_coefficient(model_.viscosity, a));
-    radius_[m] = static_cast<float>(a);
-  }
   // In the order of their first place, for the cache.
   std::vector<std::pair<std::int32_t, std::int32_t>> order;
   order.reserve(f.contacts.size());
@@ -154,6 +154,17 @@ void Stabilised::gather() {
     const BondLaw& law = laws_(bond.i, bond.j);
     bonds_.add(bond, place_[bond.i], place_[bond.j], law, state_.particles.radius[bond.i],
                state_.particles.radius[bond.j], law.lost_gap());
+  }
+  release(f.contacts);
+  motion_.resize(count);
+  mobility_.resize(count);
+  radius_.assign(padded(count), 0);
+  for (std::size_t m = 0; m < count; ++m) {
+    const double a = state_.particles.radius[chosen_[m]];
+    motion_.position[m] = double_row(f.position[chosen_[m]]);
+    mobility_.translation[m] = static_cast<float>(1 / drag_coefficient(model_.viscosity, a));
+    mobility_.rotation[m] = static_cast<float>(1 / rotational_drag_coefficient(model_.viscosity, a));
+    radius_[m] = static_cast<float>(a);
   }
 }
 
@@ -368,9 +379,11 @@ void Stabilised::put_back(double begin) {
     f.velocity[p] = passed > 0 ? Vector3((x - f.position[p]) / passed) : Vector3(Vector3::Zero());
     f.position[p] = x;
   }
+  release(motion_, before_, moves_, mobility_, relaxation_, open_pairs_, closest_, closer_);
   bonds_.hand_back(chosen_, laws_, f.contacts);
   for (const Contact& bond : f.contacts) activity_.wake(bond.i), activity_.wake(bond.j);
   statistics_.largest_overlap = std::max(statistics_.largest_overlap, bonds_.deepest_overlap());
+  release(bonds_);
 }
 
 Integrator::Memory Stabilised::memory() const {
