@@ -59,6 +59,15 @@ inline double capillary_slope(double surface_tension, double a, double offset) {
   return squared > 0 ? -2 * std::numbers::pi * surface_tension * offset / std::sqrt(squared) : 0;
 }
 
+// Rate at which a free particle comes to rest where the surface at R drags it along: F_c = zeta v at a depth d within
+// it with F_c = 2 pi sigma sqrt(2 a d), of the slope F_c/(2 d), 1/s:
+//   (2 pi sigma)^2 a/(zeta^2 v)
+// zeta: N s/m.
+inline double surface_rate(const Droplet& droplet, double a, double zeta, double R) {
+  const double pull = 2 * std::numbers::pi * droplet.surface_tension / zeta;
+  return pull * pull * a / droplet.front_speed(R);
+}
+
 // Work against F_c from the inside (offset <= -a) outwards, J: the integral of Eq. 8.
 inline double capillary_energy(double surface_tension, double a, double offset) {
   if (offset <= -a) return 0;

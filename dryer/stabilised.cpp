@@ -168,14 +168,6 @@ void Stabilised::gather() {
   }
 }
 
-// Where the surface drags a free particle along, F_c = zeta v at a depth d with F_c = 2 pi sigma sqrt(2 a d); its slope
-// F_c/(2 d), 1/s.
-double Stabilised::surface_rate() const {
-  const double pull = 2 * std::numbers::pi * model_.droplet.surface_tension,
-               zeta = drag_coefficient(model_.viscosity, smallest_radius()), R = front_.radius(state_.state.time);
-  return R > 0 ? pull * pull * smallest_radius() / (zeta * zeta * model_.droplet.front_speed(R)) : 0;
-}
-
 double Stabilised::rate() const {
   double most = 0;
   const std::size_t count = chosen_.size();
@@ -193,9 +185,11 @@ double Stabilised::rate_of_a_bond() const {
 
 // What a step is made stable for, 1/s.
 double Stabilised::limit_of_rate() {
-  const double one = rate_of_a_bond();
+  const double one = rate_of_a_bond(), R = front_.radius(state_.state.time);
+  const double zeta = drag_coefficient(model_.viscosity, smallest_radius());
+  const double surface = R > 0 ? surface_rate(model_.droplet, smallest_radius(), zeta, R) : 0;
   is_stable(known_rate_ + 0.5 * one);
-  return std::max((1 + room) * rate() + one, 4 * surface_rate());
+  return std::max((1 + room) * rate() + one, 4 * surface);
 }
 
 // Looks closer if what has been added may be too much.

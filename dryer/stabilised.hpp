@@ -42,7 +42,6 @@ class Stabilised : public Integrator {
   bool is_stable(double limit);
   double rate() const;
   double rate_of_a_bond() const;
-  double surface_rate() const;
   bool nearer(const Pair& places, float gap) const;
   void part();
   void push(const Chebyshev::Stage& stage, double dt, double R);
