@@ -37,7 +37,6 @@ void BondBlock::clear(std::size_t places, std::size_t expected) {
     array.clear();
     array.reserve(room);
   });
-  loads_.reserve(2 * lanes + 2 * room);
   deepest_.setZero();
   degree_.assign(places, 0);
   links_.assign(places * capacity_, 0);
@@ -46,7 +45,7 @@ void BondBlock::clear(std::size_t places, std::size_t expected) {
 void BondBlock::link(std::int32_t place, std::int32_t end) {
   if (static_cast<std::size_t>(degree_[place]) == capacity_) {
     const std::size_t places = degree_.size(), before = capacity_;
-    capacity_ *= 2;
+    capacity_ += 4;
     links_.resize(places * capacity_);
     for (std::size_t p = places; p-- > 0;) {
       std::int32_t* links = links_.data() + p * capacity_;
@@ -244,8 +243,21 @@ void BondBlock::move(std::size_t b, const MotionBlock& motion, Extremes& extreme
   extremes.deepest = extremes.deepest.max(-gap * constant(inverse_radius));
 }
 
+// Room for the bonds of a while; by themselves arrays double.
+void BondBlock::make_room_for_loads() {
+  const std::size_t size = 2 * lanes + 2 * padded(count_);
+  if (size > loads_.capacity()) loads_.reserve(size + size / 32);
+  loads_.resize(size);
+}
+
+void BondBlock::forget_loads() {
+  loads_ = {};
+  links_ = {};
+  for (auto* array : {&holds_, &slope_, &remembered_}) *array = {};
+}
+
 void BondBlock::advance(const MotionBlock& motion) {
-  loads_.resize(2 * lanes + 2 * padded(count_));
+  make_room_for_loads();
   Extremes all;
   if (count_ < many) {
     for (std::size_t b = 0; b < count_; b += lanes) move(b, motion, all);
@@ -298,7 +310,7 @@ void BondBlock::move_as_springs(std::size_t b, const std::vector<SixRow>& ways) 
 }
 
 void BondBlock::respond(const std::vector<SixRow>& ways) {
-  loads_.resize(2 * lanes + 2 * padded(count_));
+  make_room_for_loads();
 #pragma omp parallel for schedule(static) if (count_ >= many)
   for (std::size_t b = 0; b < count_; b += lanes) move_as_springs(b, ways);
 }

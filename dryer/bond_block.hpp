@@ -39,6 +39,8 @@ class BondBlock {
   // All bonds as they are, with their loads, sorted; particle: that of a place.
   template <class Index>
   void hand_back(const std::vector<Index>& particle, const BondLaws& laws, std::vector<Contact>& contacts) const;
+  // Frees what hand_back() does not need. Only clear() may follow it then.
+  void forget_loads();
 
   // Moves all bonds to the positions of the block and finds their loads. Bonds that are beyond their reach pull no more
   // and are listed in lost(), ascending.
@@ -100,6 +102,7 @@ class BondBlock {
     return uniform_ ? Lane(Lane::Constant(constants_[which][0])) : read(&constants_[which][first]);
   }
   Lane slope(std::size_t first) const;
+  void make_room_for_loads();
   void link(std::int32_t place, std::int32_t end);
   void unlink(std::int32_t place, std::int32_t end);
 

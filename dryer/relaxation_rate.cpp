@@ -43,11 +43,10 @@ void Mobility::resize(std::size_t count) {
 
 // In displacements and rotations u, in which the matrix mobility times stiffness is symmetric under the product
 // <u, v> = sum u v/mobility.
-double RelaxationRate::bound(BondBlock& bonds, const Mobility& mobility) {
+double relaxation_rate(BondBlock& bonds, const Mobility& mobility) {
   const std::size_t places = mobility.translation.size();
   if (bonds.size() == 0) return 0;
-  way_.resize(places);
-  before_.assign(places, {});
+  std::vector<SixRow> current(places), before(places);
   const auto norm = [&](const std::vector<SixRow>& u) {
     return std::sqrt(sum(places, [&](std::size_t m) { return dot(load(u[m]) / mobility.of(m), load(u[m])); }));
   };
@@ -61,30 +60,30 @@ double RelaxationRate::bound(BondBlock& bonds, const Mobility& mobility) {
                y = random_normals(0, Purpose::eigenvector, static_cast<std::uint32_t>(m), 1);
     const Six mobile = mobility.of(m);
     const double way = std::sqrt(mobile[0]), turn = std::sqrt(mobile[4]);
-    way_[m] =
+    current[m] =
         six_row((Vector6() << way * x[0], way * x[1], way * x[2], turn * x[3], turn * y[0], turn * y[1]).finished());
   }
-  scale(way_, 1 / norm(way_));
+  scale(current, 1 / norm(current));
 
   Eigen::VectorXd diagonal(steps), beside(steps);
   int done = 0;
   for (double beta = 0; done < steps;) {
-    bonds.respond(way_);
+    bonds.respond(current);
     const double alpha = sum(places, [&](std::size_t m) {
-      const Six response = bonds.load_on(m), own = load(way_[m]);
-      store(before_[m], -mobility.of(m) * response - static_cast<float>(beta) * load(before_[m]));
+      const Six response = bonds.load_on(m), own = load(current[m]);
+      store(before[m], -mobility.of(m) * response - static_cast<float>(beta) * load(before[m]));
       return -dot(response, own);
     });
     beta = std::sqrt(sum(places, [&](std::size_t m) {
-      const Six next = load(before_[m]) - static_cast<float>(alpha) * load(way_[m]);
-      store(before_[m], next);
+      const Six next = load(before[m]) - static_cast<float>(alpha) * load(current[m]);
+      store(before[m], next);
       return dot(next / mobility.of(m), next);
     }));
     diagonal[done] = alpha;
     beside[done++] = beta;
     if (!(beta > 1e-5 * alpha)) break;  // all directions that there are
-    scale(before_, 1 / beta);
-    std::swap(way_, before_);
+    scale(before, 1 / beta);
+    std::swap(current, before);
   }
   Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
   solver.computeFromTridiagonal(diagonal.head(done), beside.head(done - 1), Eigen::EigenvaluesOnly);

@@ -18,16 +18,10 @@ struct Mobility {
 //   below (1 - e) times the eigenvalue  with a probability of at most  1.648 sqrt(n) exp(-sqrt(e) (2 steps - 1))
 // for a matrix of n rows. Source: Kuczynski & Wozniakowski 1992, Theorem 4.2. e is chosen such that this is 1e-9.
 //
-// Two vectors are kept, whatever the number of steps; libraries keep all of them, more than the droplet itself needs.
-class RelaxationRate {
- public:
-  // Of the bonds as find_stiffness() last found them; what they have as loads is lost. On all threads; the same bits on
-  // any number of them.
-  double bound(BondBlock& bonds, const Mobility& mobility);
-
- private:
-  std::vector<SixRow> way_, before_;
-};
+// Of the bonds as find_stiffness() last found them; what they have as loads is lost. On all threads; the same bits on
+// any number of them. Two vectors are kept, whatever the number of steps; libraries keep all of them, more than the
+// droplet itself needs.
+double relaxation_rate(BondBlock& bonds, const Mobility& mobility);
 
 // By how much the eigenvalues that belong to a place can have grown since stiffness was last remembered, 1/s, an upper
 // bound: the largest eigenvalue of a sum is at most the sum of the largest ones (Weyl), and that of what has been added

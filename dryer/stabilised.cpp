@@ -91,33 +91,18 @@ void Stabilised::step(double latest_time) {
   front_.follow(state_);
 }
 
-std::vector<Pair> Stabilised::within(double gap) const {
-  std::vector<Pair> found;
-  const auto& x = state_.state.position;
-  const auto& a = state_.particles.radius;
-  auto bond = state_.state.contacts.begin();  // both lists are sorted
-  for (const Pair& pair : listed_) {
-    const double reach = a[pair.i] + a[pair.j] + gap;
-    if ((x[pair.j] - x[pair.i]).squaredNorm() >= reach * reach) continue;
-    while (bond != state_.state.contacts.end() && Pair{bond->i, bond->j} < pair) ++bond;
-    if (bond == state_.state.contacts.end() || Pair{bond->i, bond->j} != pair) found.push_back(pair);
-  }
-  return found;
-}
-
 // Who moves and who may be met: the list depends on the state alone.
 void Stabilised::choose(double R_end) {
   Frame& f = state_.state;
   activity_.front_at(R_end);
-  const double a = smallest_radius(), far = 0.5 * (control_.skin() - control_.near()) * a;
-  bool moved = reference_.empty();
-  for (std::size_t p = 0; p < reference_.size() && !moved; ++p)
-    moved = !((f.position[p] - reference_[p]).squaredNorm() < far * far);
-  if (moved) {
-    reference_ = f.position;
-    NeighbourSearch().find(f.position, state_.particles.radius, control_.skin() * a, listed_);
-  }
-  std::vector<Pair> pairs = within(control_.near() * a);
+  const double a = smallest_radius();
+  std::vector<Pair> pairs;
+  NeighbourSearch().find(f.position, state_.particles.radius, control_.near() * a, pairs);
+  auto bond = f.contacts.begin();  // both lists are sorted
+  std::erase_if(pairs, [&](const Pair& pair) {
+    while (bond != f.contacts.end() && Pair{bond->i, bond->j} < pair) ++bond;
+    return bond != f.contacts.end() && Pair{bond->i, bond->j} == pair;
+  });
   std::erase_if(pairs, [&](const Pair& p) { return !activity_.is_active(p.i) && !activity_.is_active(p.j); });
   std::vector<std::pair<std::uint64_t, std::int32_t>> order;
   const auto choose_one = [&](std::int32_t p) {
@@ -196,7 +181,7 @@ double Stabilised::limit_of_rate() {
 bool Stabilised::is_stable(double limit) {
   bonds_.find_stiffness();
   if (rate() < limit) return true;
-  known_rate_ = relaxation_.bound(bonds_, mobility_);
+  known_rate_ = relaxation_rate(bonds_, mobility_);
   bonds_.remember_stiffness();
   return known_rate_ < limit;
 }
@@ -373,7 +358,8 @@ void Stabilised::put_back(double begin) {
     f.velocity[p] = passed > 0 ? Vector3((x - f.position[p]) / passed) : Vector3(Vector3::Zero());
     f.position[p] = x;
   }
-  release(motion_, before_, moves_, mobility_, relaxation_, open_pairs_, closest_, closer_);
+  release(motion_, before_, moves_, mobility_, open_pairs_, closest_, closer_);
+  bonds_.forget_loads();
   bonds_.hand_back(chosen_, laws_, f.contacts);
   for (const Contact& bond : f.contacts) activity_.wake(bond.i), activity_.wake(bond.j);
   statistics_.largest_overlap = std::max(statistics_.largest_overlap, bonds_.deepest_overlap());

@@ -13,8 +13,6 @@ struct StabilisedControl {
   double largest_displacement = 0.02;  // of a particle in one stabilised step, in its radius
   // How near pairs must be to be looked at within a step(), in the smallest radius.
   double near() const { return std::max(0.2, 3 * largest_displacement); }
-  // The same for the list of all.
-  double skin() const { return near() + 0.3; }
 };
 
 // dx/dt = F/zeta and the same for rotations by the method of chebyshev.hpp: as many evaluations a step as the stiffest
@@ -52,15 +50,11 @@ class Stabilised : public Integrator {
   void measure(From from);
   double farthest();
   double time_of_travel(double radii) const;
-  std::vector<Pair> within(double gap) const;
 
   StabilisedControl control_;
-  double next_dt_ = 0;              // s
-  std::vector<Pair> listed_;        // all pairs within the skin of where their particles were, sorted
-  std::vector<Vector3> reference_;  // there
+  double next_dt_ = 0;  // s
   std::vector<std::int32_t> chosen_, place_;
   Mobility mobility_;
-  RelaxationRate relaxation_;
   double known_rate_ = 0;  // bound for the bonds as they were when their stiffness was last remembered, 1/s
   std::vector<float> radius_;
   std::vector<DoubleRow> before_;
