@@ -20,6 +20,7 @@ std::string duration_text(double seconds) {
 std::string Progress::line(double now, double fraction, std::int64_t steps, const std::string& status) {
   constexpr std::size_t memory = 8;  // reports
   std::string out = fmt::format("{}: {:3.0f} %", label_, 100 * std::clamp(fraction, 0.0, 1.0));
+  if (!marks_.empty() && steps < marks_.back().steps) marks_.clear();
   if (!marks_.empty()) {
     const Mark& old = marks_.front();
     const double seconds = now - old.time, gained = fraction - old.fraction;

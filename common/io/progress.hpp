@@ -16,7 +16,7 @@ class Progress {
   explicit Progress(std::string label) : label_(std::move(label)) {}
 
   // "hollow-1:  42 %, 1.3e+04 steps/s, 12 s left, R = 150 nm". Times in s on any clock that does not go back; the first
-  // call sets the start.
+  // call sets the start, and so does one with fewer steps than the last: a run that begins anew.
   std::string line(double now, double fraction, std::int64_t steps, const std::string& status);
 
  private:

@@ -99,6 +99,14 @@ TEST(Progress, time_left_follows_the_recent_speed) {
   EXPECT_EQ(line, "hollow:  15 %, 1e+03 steps/s, 1 min 25 s left");
 }
 
+TEST(Progress, of_a_run_that_begins_anew_begins_anew) {
+  Progress progress("hollow");
+  progress.line(0, 0, 0, "");
+  progress.line(60, 0.5, 600, "");
+  EXPECT_EQ(progress.line(61, 0, 1, ""), "hollow:   0 %");
+  EXPECT_EQ(progress.line(62, 0.01, 11, ""), "hollow:   1 %, 10 steps/s, 1 min 39 s left");
+}
+
 TEST(Progress, durations_are_words_of_two_units) {
   EXPECT_EQ(duration_text(0.04), "0.0 s");
   EXPECT_EQ(duration_text(9.94), "9.9 s");
