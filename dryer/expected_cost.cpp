@@ -31,9 +31,9 @@ double drying_until(const DryingScene& s, double packing) {
   return std::clamp(1 - std::pow(solids / packing, 2.0 / 3), 0.0, 1.0);
 }
 
-// Share of the droplet that the solids take up when there are so many bonds a particle: 0.115 at 0.3, 0.26 at one,
-// measured.
-double packing_with(double bonds) { return 0.115 + (bonds - 0.3) * (0.26 - 0.115) / (1 - 0.3); }
+// Share of the droplet that the solids take up when there are so many bonds a particle: 0.115 at 0.3, 0.26 at one; 1
+// when the first is left dry, measured.
+double packing_with(double bonds) { return std::min(0.115 + (bonds - 0.3) * (0.26 - 0.115) / (1 - 0.3), 1.0); }
 
 // With one bond a particle nearly all take short steps from then on.
 ExpectedCost brownian_cost(const DryingScene& s) {

@@ -113,9 +113,11 @@ const ParameterTable& drying_parameters() {
             .above(0)
             .at_most(0.15)
             .by_default(0.15),
-        P::real("softening", "",
-                "overdamped with Brownian motion: width of the bond in that of the material's; its strength is such "
-                "that pairs stay together as much. 1: full stiffness")
+        P::real(
+            "softening", "",
+            "overdamped with Brownian motion: width of the bond in the packed liquid core in that of the material's; "
+            "its strength is such that pairs stay together as much. What dries has the material's. 1: full "
+            "stiffness throughout")
             .at_least(1)
             .at_most(4)
             .by_default(1.5),

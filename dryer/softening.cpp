@@ -29,12 +29,14 @@ bool can_be_softened(const DryingScene& scene, double factor) {
 }  // namespace
 
 std::vector<SofteningStage> softening_stages(const DryingScene& scene) {
-  const SofteningStage last{scene.softening, scene.brownian.depth};
-  if (!scene.diffuses() || scene.softening == 1 || !bonds_are_brief(scene)) return {last};
+  const int depth = scene.brownian.depth;
+  const SofteningStage packed{scene.softening, depth};
+  if (!scene.diffuses() || scene.softening == 1 || !bonds_are_brief(scene)) return {packed};
   std::vector<SofteningStage> stages;
   for (const SofteningStage& stage : {SofteningStage{4, 5, 0.3}, SofteningStage{2.5, 5, 1}})
     if (stage.softening > scene.softening && can_be_softened(scene, stage.softening)) stages.push_back(stage);
-  stages.push_back(last);
+  stages.push_back(packed);
+  stages.push_back({1, depth + 1});  // a long step about as long as before: the short ones are half as long
   return stages;
 }
 

@@ -11,15 +11,15 @@ namespace crumble {
 struct SofteningStage {
   double softening;                                             // width of the bond in that of the material's
   int depth;                                                    // 2^depth short steps make a long one
-  double most_bonds = std::numeric_limits<double>::infinity();  // per particle; with more, the next stage begins
+  double most_bonds = std::numeric_limits<double>::infinity();  // per particle; with more the next stage begins
 };
 
-// While bonds are few, all that they do to the suspension is to hold pairs together for a share of the time, and a much
-// softer bond of the same stickiness does it as well; only in the packed core does their width count, because more
-// neighbours lie within it. So a run whose integrator.softening is above 1 begins with factors of 4 and 2.5 and
-// ends with its own; one that asks for full stiffness has it throughout. The last stage also begins as soon as a
-// particle is left dry. Only for bonds that thermal motion breaks many times while a particle diffuses its radius:
-// others keep the history of how they came about.
+// In the liquid all that bonds do is to hold pairs together for a share of the time, and a softer bond of the same
+// stickiness does it nearly as well: a much softer one while bonds are few, one of integrator.softening in the packed
+// core, where more neighbours lie within its width. What the liquid leaves dry keeps its bonds, and those to its wet
+// neighbours break one by one: with the first dry particle the contacts are the material's own. A run that asks for
+// full stiffness has it throughout. Only for bonds that thermal motion breaks many times while a particle diffuses its
+// radius: others keep the history of how they came about, and have one softening throughout.
 std::vector<SofteningStage> softening_stages(const DryingScene& scene);
 
 // What the integrator is given: the scene's model, with its contacts softened if particles diffuse.

@@ -31,8 +31,7 @@ def largest_error(reports, key):
 
 
 def stored_errors(row):
-    stored = json.loads(STORED.read_text(encoding="utf-8"))
-    return stored if row in stored["rows"] else None
+    return json.loads(STORED.read_text(encoding="utf-8")).get(row)
 
 
 def error_cell(row, reports, mean, column):

@@ -46,7 +46,7 @@ def mean(values):
 
 def stored_error():
     """Of the rows with Brownian motion: found by `make verify` and kept."""
-    d_c = load(STORED)["d_c_relative"]
+    d_c = load(STORED)["compact"]["d_c_relative"]
     return f"d_c {100 * d_c['difference']:+.1f} ± {100 * d_c['interval_95']:.1f} % of full stiffness (stored)"
 
 

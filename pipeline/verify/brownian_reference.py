@@ -1,11 +1,10 @@
-"""What softened contacts do to a granule that dries at Pe = 10: against full stiffness, means over seeds.
+"""What softened contacts do to a granule that dries at Pe = 10 and 1: against full stiffness, means over seeds.
 
-    /usr/bin/python3 pipeline/verify/brownian_reference.py [--seeds 1 2 ... 8] [--jobs 2]
+    /usr/bin/python3 pipeline/verify/brownian_reference.py [--rows intermediate compact] [--seeds 1 2 ... 8] [--jobs 2]
 
 With noise, two runs of one seed part after a while, so only means can be compared: the difference of each quantity with
 its 95 % interval (Welch). Also writes pipeline/verify/brownian.json, from which the tables of `make -C pipeline` take the
-errors of their rows with Brownian motion. Compact granules (Pe = 1) take eight times as long; their row borrows the
-differences found here.
+errors of their rows with Brownian motion.
 """
 
 import json
@@ -14,57 +13,76 @@ from drying import runs
 from interval import difference
 from table import print_markdown
 
-SCENE = "pipeline/scenes/intermediate.toml"
-CASES = {"brownian_full": {"integrator.softening": 1}, "brownian_soft_1.25": {"integrator.softening": 1.25}}
-DEFAULT_SEEDS = range(1, 26)  # the default is cheap: many seeds narrow the interval
+# scene: Peclet number, particles, seeds of the default, which is cheap: many narrow the interval
+ROWS = {"intermediate": (10, 102, range(1, 26)), "compact": (1, 85, range(1, 13))}
 # key of the result, title, format, key in brownian.json, whether that is a fraction of the value
 QUANTITIES = [("d_c_nm", "d_c nm", ".2f", "d_c_relative", True), ("h_c_over_d_c", "h_c/d_c", ".4f", "h_c_over_d_c", False),
               ("contacts", "contacts", ".1f", "contacts_relative", True)]
+BOUNDS = {"d_c_nm": 0.02, "contacts": 0.05}
+STORED = runs.ROOT / "pipeline/verify/brownian.json"
 
 
 def values(rows, key):
     return [row[key] for row in rows]
 
 
+def shift(found, full, key):
+    """Difference of the means and half of its 95 % interval."""
+    return difference(values(found, key), values(full, key))
+
+
+def table_row(row, name, found, full):
+    cells = [row, name, str(len(found))]
+    for key, _, digits, _, _ in QUANTITIES:
+        cells.append(f"{runs.mean(found, key):{digits}} +- {runs.spread(found, key):{digits}}")
+        percent, half = (100 * x / runs.mean(full, key) for x in shift(found, full, key))
+        cells.append("" if found is full else f"{percent:+.1f} +- {half:.1f}")
+    return cells + [f"{runs.mean(found, 'cpu_s'):.1f}"]
+
+
+def errors(row, default, full):
+    """What the tables of granules take for the numerical error of their row."""
+    peclet, number, _ = ROWS[row]
+    stored = {"how": f"difference of means to contacts of full stiffness at Pe = {peclet}, N = {number}, {len(default)} and "
+                     f"{len(full)} seeds (95 % interval in pipeline/verify/README.md)"}
+    for key, _, _, name, relative in QUANTITIES:
+        scale = runs.mean(full, key) if relative else 1
+        found, half = shift(default, full, key)
+        stored[name] = {"difference": round(found / scale, 5), "interval_95": round(half / scale, 5)}
+    return stored
+
+
+def claims(row, default, full):
+    for key, title, _, _, _ in QUANTITIES:
+        if key not in BOUNDS:
+            continue
+        scale = runs.mean(full, key)
+        found, half = (x / scale for x in shift(default, full, key))
+        yield (f"{row}, {title}: 95 % interval of the difference, {100 * (found - half):+.1f} to {100 * (found + half):+.1f} %, "
+               f"within +-{100 * BOUNDS[key]:g} %", abs(found) + half < BOUNDS[key])
+
+
 def main():
-    options = runs.arguments(__doc__.splitlines()[0], [1, 2, 3, 4, 5, 6, 7, 8])
+    options = runs.arguments(__doc__.splitlines()[0], [1, 2, 3, 4, 5, 6, 7, 8], rows=list(ROWS))
     runs.require_programs()
-    results = runs.run_all(CASES, options.seeds, options.jobs, SCENE)
-    results |= runs.run_all({"brownian_default": {}}, DEFAULT_SEEDS, options.jobs, SCENE)
-    full = results["brownian_full"]
-    print(f"\n{runs.machine()}\n")
-    rows = []
-    for name, found in results.items():
-        row = [name.removeprefix("brownian_").replace("_", " "), str(len(found))]
-        for key, _, digits, _, _ in QUANTITIES:
-            row.append(f"{runs.mean(found, key):{digits}} +- {runs.spread(found, key):{digits}}")
-            shift, half = (100 * x / runs.mean(full, key) for x in difference(values(found, key), values(full, key)))
-            row.append("" if found is full else f"{shift:+.1f} +- {half:.1f}")
-        rows.append(row + [f"{runs.mean(found, 'cpu_s'):.1f}"])
-    heading = ["contacts of", "seeds"]
+    stored = json.loads(STORED.read_text(encoding="utf-8"))
+    table, judged = [], []
+    for row in options.rows:
+        scene = f"pipeline/scenes/{row}.toml"
+        full = runs.run_all({f"{row}_full": {"integrator.softening": 1}}, options.seeds, options.jobs, scene)[f"{row}_full"]
+        default = runs.run_all({f"{row}_default": {}}, ROWS[row][2], options.jobs, scene)[f"{row}_default"]
+        table += [table_row(row, "full stiffness", full, full), table_row(row, "default", default, full)]
+        stored[row] = errors(row, default, full)
+        judged += claims(row, default, full)
+    heading = ["row", "contacts of", "seeds"]
     for _, title, *_ in QUANTITIES:
         heading += [title, "difference %"]
-    print_markdown(heading + ["CPU s"], rows)
-    runs.store("brownian_reference.csv", __doc__.splitlines()[0], heading + ["cpu_s"], rows)
-
-    default = results["brownian_default"]
-    stored = {"rows": ["intermediate", "compact"],
-              "how": f"difference of means to contacts of full stiffness at Pe = 10, N = 102, {len(default)} and {len(full)} "
-                     "seeds (95 % interval in pipeline/verify/README.md)"}
-    claims = []
-    for key, title, _, name, relative in QUANTITIES:
-        shift, half = difference(values(default, key), values(full, key))
-        scale = runs.mean(full, key) if relative else 1
-        stored[name] = {"difference": round(shift / scale, 5), "interval_95": round(half / scale, 5)}
-        bound = {"d_c_nm": 0.02, "contacts": 0.05}.get(key)
-        if bound:
-            claims.append((f"{title}: 95 % interval of the difference, {100 * (shift - half) / scale:+.1f} to "
-                           f"{100 * (shift + half) / scale:+.1f} %, within +-{100 * bound:g} %",
-                           abs(shift) + half < bound * scale))
-    path = runs.ROOT / "pipeline/verify/brownian.json"
-    path.write_text(json.dumps(stored, indent=1) + "\n", encoding="utf-8")
-    print(f"written: {path.relative_to(runs.ROOT)}")
-    runs.judge(claims)
+    print(f"\n{runs.machine()}\n")
+    print_markdown(heading + ["CPU s"], table)
+    runs.store("brownian_reference.csv", __doc__.splitlines()[0], heading + ["cpu_s"], table)
+    STORED.write_text(json.dumps(stored, indent=1) + "\n", encoding="utf-8")
+    print(f"written: {STORED.relative_to(runs.ROOT)}")
+    runs.judge(judged)
 
 
 if __name__ == "__main__":

@@ -27,8 +27,11 @@ from table import write_csv  # noqa: E402
 BARE = {"error.estimate": "false", "output.frames": "0"}
 
 
-def arguments(description, seeds):
+def arguments(description, seeds, rows=None):
+    """rows: of Table 2, if the check has several and can do some of them."""
     parser = argparse.ArgumentParser(description=description)
+    if rows:
+        parser.add_argument("--rows", nargs="+", choices=rows, default=rows, help="of Table 2 (default: all)")
     parser.add_argument("--seeds", type=int, nargs="+", default=seeds, help="random starts (default: %(default)s)")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="runs side by side (default: all processors)")
     return parser.parse_args()
