@@ -150,4 +150,25 @@ TEST(ExpectedCost, the_steps_of_a_brownian_run_are_its_own) {
   EXPECT_NEAR(expected_cost(s).steps, steps, 0.3 * steps);
 }
 
+TEST(Softening, ends_with_the_contacts_of_the_material_before_anything_is_dry_for_long) {
+  DryingScene s = brownian("peclet = 10");
+  s.radius.resize(10);
+  s.model.droplet.lifetime /= 10;
+  const auto stages = softening_stages(s);
+  ASSERT_EQ(stages.size(), 4u);
+  for (std::size_t k = 1; k < stages.size(); ++k) EXPECT_LT(stages[k].softening, stages[k - 1].softening);
+  EXPECT_EQ(stages.back().softening, 1);
+  DryingRun run(s, 1);
+  const auto someone_is_dry = [&] {
+    for (const Vector3& x : run.state().state.position)
+      if (is_dry(s.nominal_radius, x.norm(), run.droplet_radius())) return true;
+    return false;
+  };
+  while (!run.finished() && !someone_is_dry()) run.step();
+  for (std::size_t k = 0; k < stages.size(); ++k) run.step();
+  EXPECT_EQ(run.stage(), stages.size() - 1);
+  s.softening = 1;
+  EXPECT_EQ(softening_stages(s).size(), 1u) << "full stiffness is that throughout";
+}
+
 }  // namespace
