@@ -15,10 +15,11 @@ from table import print_markdown
 
 # scene: Peclet number, particles, seeds of the default, which is cheap: many narrow the interval
 ROWS = {"intermediate": (10, 102, range(1, 26)), "compact": (1, 85, range(1, 13))}
+# Where the interval must lie. At Pe = 1 the softer core in the liquid costs 2 % of the size.
+BOUNDS = {"intermediate": {"d_c_nm": 0.02, "contacts": 0.05}, "compact": {"d_c_nm": 0.04, "contacts": 0.05}}
 # key of the result, title, format, key in brownian.json, whether that is a fraction of the value
 QUANTITIES = [("d_c_nm", "d_c nm", ".2f", "d_c_relative", True), ("h_c_over_d_c", "h_c/d_c", ".4f", "h_c_over_d_c", False),
               ("contacts", "contacts", ".1f", "contacts_relative", True)]
-BOUNDS = {"d_c_nm": 0.02, "contacts": 0.05}
 STORED = runs.ROOT / "pipeline/verify/brownian.json"
 
 
@@ -54,12 +55,12 @@ def errors(row, default, full):
 
 def claims(row, default, full):
     for key, title, _, _, _ in QUANTITIES:
-        if key not in BOUNDS:
+        if key not in BOUNDS[row]:
             continue
         scale = runs.mean(full, key)
         found, half = (x / scale for x in shift(default, full, key))
         yield (f"{row}, {title}: 95 % interval of the difference, {100 * (found - half):+.1f} to {100 * (found + half):+.1f} %, "
-               f"within +-{100 * BOUNDS[key]:g} %", abs(found) + half < BOUNDS[key])
+               f"within +-{100 * BOUNDS[row][key]:g} %", abs(found) + half < BOUNDS[row][key])
 
 
 def main():
