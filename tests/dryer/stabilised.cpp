@@ -151,17 +151,4 @@ TEST(Stabilised, a_droplet_of_loose_particles_that_the_front_has_not_reached_sta
   EXPECT_EQ(s.state.step, 20) << "each step has its number, for the frames";
 }
 
-// Bonds are in the frame or in the block: after a failure they must be in the frame, which is what a checkpoint holds.
-TEST(Stabilised, a_step_that_fails_leaves_the_bonds_to_the_state) {
-  DryingModel model = hollow();
-  model.droplet = {60e-9, 1e-5, std::nan("")};
-  const BondLaw law(model.contact, model.material, 10e-9, 10e-9);
-  Agglomerate s = spheres({Vector3(55e-9, 0, 0), Vector3(55e-9 - 20e-9 - law.equilibrium_gap(), 0, 0)});
-  s.state.contacts = {make_bond(law, 0, 1, s.state.position[1] - s.state.position[0], 10e-9, 10e-9, 0)};
-  Stabilised integrator(model, s, {0.05});
-  EXPECT_THROW(integrator.step(1e-6), std::domain_error);
-  ASSERT_EQ(s.state.contacts.size(), 1u);
-  EXPECT_EQ(s.state.contacts[0].j, 1);
-}
-
 }  // namespace
