@@ -48,7 +48,7 @@ ExpectedCost brownian_cost(const DryingScene& s) {
     const double short_steps = std::max(end - begin, 0.0) * s.model.droplet.lifetime / step;
     cost.steps += std::ldexp(short_steps, -stages[k].depth);
     const double packed = std::clamp((end - drying_until(s, packing_with(1))) / std::max(end - begin, 1e-9), 0.0, 1.0);
-    cost.seconds += (1e-8 + 9e-8 * packed) * N * short_steps;
+    cost.seconds += (5e-9 + 4.3e-8 * packed) * N * short_steps;
     begin = end;
   }
   return cost;
