@@ -17,10 +17,17 @@ constexpr double a = 10e-9;
 template <class I>
 class Overdamped : public testing::Test {
  protected:
+  static auto control(double largest_displacement, double contact_precision) {
+    if constexpr (std::is_same_v<I, Implicit>)
+      return ImplicitControl{largest_displacement, contact_precision};
+    else
+      return StabilisedControl{largest_displacement};
+  }
   // Implicit steps do not know how stiff contacts are; evaluations of stabilised ones go with the root of it.
   static constexpr std::int64_t most_steps = std::is_same_v<I, Implicit> ? 100000 : 1000000;
-  static IntegratorStatistics dry(const DryingModel& model, Agglomerate& state, double largest_displacement = 0.02) {
-    I integrator(model, state, {largest_displacement});
+  static IntegratorStatistics dry(const DryingModel& model, Agglomerate& state, double largest_displacement = 0.01,
+                                  double contact_precision = 1e-4) {
+    I integrator(model, state, control(largest_displacement, contact_precision));
     while (state.state.time < model.droplet.lifetime) integrator.step(model.droplet.lifetime);
     return integrator.statistics();
   }
@@ -107,7 +114,7 @@ TYPED_TEST(Overdamped, ten_times_too_long_steps_change_the_result_by_no_more_tha
   model.droplet = {129e-9, 1.26e-5, 1.75e-4};
   Agglomerate fine = start(25, 129e-9, 3), coarse = fine;
   this->dry(model, fine);
-  this->dry(model, coarse, 0.1);
+  this->dry(model, coarse, 0.1, 1e-3);
   const Morphology f = morphology(fine.particles, fine.state), c = morphology(coarse.particles, coarse.state);
   EXPECT_NEAR(c.extent.diameter() / f.extent.diameter(), 1, 0.02);
   EXPECT_NEAR(static_cast<double>(c.contacts), static_cast<double>(f.contacts), 2);
@@ -131,7 +138,9 @@ TYPED_TEST(Overdamped, contact_torn_open_is_lost_and_made_again_only_at_zero_gap
   integrator.step(3e-16);
   ASSERT_EQ(s.state.contacts.size(), 1u);
   EXPECT_EQ(s.state.contacts[0].sliding.norm(), 0);
-  EXPECT_GE(s.state.contacts[0].born, before);
+  // One step of the integrator is several evaluations of the stabilised one.
+  constexpr bool one_evaluation = std::is_same_v<TypeParam, Implicit>;
+  EXPECT_GE(s.state.contacts[0].born, one_evaluation ? s.state.step : before);
   EXPECT_LE(s.state.contacts[0].born, s.state.step);
 }
 
