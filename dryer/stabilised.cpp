@@ -98,11 +98,7 @@ void Stabilised::choose(double R_end) {
   const double a = smallest_radius();
   std::vector<Pair> pairs;
   NeighbourSearch().find(f.position, state_.particles.radius, control_.near() * a, pairs);
-  auto bond = f.contacts.begin();  // both lists are sorted
-  std::erase_if(pairs, [&](const Pair& pair) {
-    while (bond != f.contacts.end() && Pair{bond->i, bond->j} < pair) ++bond;
-    return bond != f.contacts.end() && Pair{bond->i, bond->j} == pair;
-  });
+  erase_bonded(pairs, f.contacts);
   std::erase_if(pairs, [&](const Pair& p) { return !activity_.is_active(p.i) && !activity_.is_active(p.j); });
   std::vector<std::pair<std::uint64_t, std::int32_t>> order;
   const auto choose_one = [&](std::int32_t p) {

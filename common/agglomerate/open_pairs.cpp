@@ -4,6 +4,14 @@
 
 namespace crumble {
 
+void erase_bonded(std::vector<Pair>& pairs, const std::vector<Contact>& bonds) {
+  auto bond = bonds.begin();
+  std::erase_if(pairs, [&](const Pair& pair) {
+    while (bond != bonds.end() && Pair{bond->i, bond->j} < pair) ++bond;
+    return bond != bonds.end() && Pair{bond->i, bond->j} == pair;
+  });
+}
+
 void OpenPairs::update(const std::vector<Vector3>& position, const std::vector<double>& radius,
                        const std::vector<Contact>& bonds) {
   if (reference_.size() == position.size()) {
@@ -16,11 +24,7 @@ void OpenPairs::update(const std::vector<Vector3>& position, const std::vector<d
   ++searches_;
   reference_ = position;
   search_.find(position, radius, skin_, pairs_);
-  auto bond = bonds.begin();  // both lists are sorted
-  std::erase_if(pairs_, [&](const Pair& pair) {
-    while (bond != bonds.end() && Pair{bond->i, bond->j} < pair) ++bond;
-    return bond != bonds.end() && Pair{bond->i, bond->j} == pair;
-  });
+  erase_bonded(pairs_, bonds);
 }
 
 void OpenPairs::open(Pair pair) { pairs_.insert(std::lower_bound(pairs_.begin(), pairs_.end(), pair), pair); }

@@ -9,6 +9,9 @@
 
 namespace crumble {
 
+// Leaves the pairs that no bond joins; both lists are sorted.
+void erase_bonded(std::vector<Pair>& pairs, const std::vector<Contact>& bonds);
+
 // Near pairs that are not bonded, sorted; found anew when something has moved so far that a pair with a gap below
 // `complete` might be missing, m.
 class OpenPairs {
