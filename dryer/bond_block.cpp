@@ -30,7 +30,6 @@ void BondBlock::each_array(Visit visit) {
 
 void BondBlock::clear(std::size_t places, std::size_t expected) {
   count_ = 0;
-  uniform_ = true;
   // Arrays that grow by themselves take up to twice the memory.
   const std::size_t room = padded(expected + expected / 32 + 1);
   each_array([room](auto& array) {
