@@ -12,7 +12,7 @@ struct BrownianControl {
   int depth = 6;               // 2^depth short steps make one long step
 };
 
-// dx = F/zeta dt + sqrt(2 D) dW and the same for rotations, D = kT/zeta (paper, Eqs. 1, 4, 5 without inertia).
+// dx = F/zeta dt + sqrt(2 D) dW and the same for rotations, D = kT/zeta (Eqs. 1, 4, 5 without inertia).
 //
 // Two rates. Particles that are bonded, or so near another that they may touch within the long step, take short steps
 // that resolve the contact; all others take one long step. Both follow the particle's one Brownian path. The scheme is

@@ -6,10 +6,13 @@
 
 namespace crumble {
 
-// Paper, Eqs. 28-30, with Pe = k/D (Eqs. 28-29 call 1/Pe "D/k"): Gamma = C/C0 against rho = r/R(t) and theta = k
-// t/R0^2,
-//   dGamma/dtheta = [-(rho/2) dGamma/drho + (1/Pe) rho^-2 d/drho(rho^2 dGamma/drho)] / (1 - theta)
-//   dGamma/drho = 0 at rho = 0,  = (Pe/2) Gamma at rho = 1;  Gamma = 1 at theta = 0.
+//   dC/dt = D r^-2 d/dr(r^2 dC/dr)                                                        (paper, Eq. 25)
+//   dC/dr = 0 at r = 0                                                                    (paper, Eq. 26)
+//   v C - D dC/dr = 0 at r = R(t)                                                         (paper, Eq. 27)
+// With Gamma = C/C0 against rho = r/R(t) and theta = k t/R0^2, and Pe = k/D, whose inverse the paper calls "D/k":
+//   dGamma/dtheta = [-(rho/2) dGamma/drho + (1/Pe) rho^-2 d/drho(rho^2 dGamma/drho)] / (1 - theta)   (paper, Eq. 28)
+//   dGamma/drho = (Pe/2) Gamma at rho = 1                                                 (paper, Eq. 29)
+//   Gamma = 1 at theta = 0                                                                (paper, Eq. 30)
 // With g = Gamma (1 - theta)^(3/2) and s = -ln(1 - theta) this is a conservation law of constant coefficients,
 //   dg/ds = rho^-2 d/drho {rho^2 [(1/Pe) dg/drho - (rho/2) g]},  no flux at rho = 0 and rho = 1,
 // which keeps the integral of g rho^2 = 1/3 and ends at g ~ exp(Pe rho^2/4).

@@ -7,7 +7,8 @@
 
 namespace crumble {
 
-// One step is a symmetric splitting of Eq. 1: half a kick, a drift, half a kick. In a kick the force is constant and
+//   m dv/dt = sum of all forces,   I dW/dt = sum of all torques                           (paper, Eq. 1)
+// One step is a symmetric splitting: half a kick, a drift, half a kick. In a kick the force is constant and
 // the drag exact: v <- v e + (F/zeta)(1 - e), e = exp(-zeta dt/(2 m)); rotations likewise with zeta_r and I = (2/5) m
 // a^2. Bond histories are advanced over the drift. Second order in dt for smooth forces (test), stable for dt <
 // 2/omega_max.

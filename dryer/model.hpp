@@ -2,6 +2,7 @@
 #pragma once
 
 #include "common/contact/bond_law.hpp"
+#include "dryer/capillary.hpp"
 #include "dryer/droplet.hpp"
 
 namespace crumble {

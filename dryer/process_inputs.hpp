@@ -18,9 +18,9 @@ struct ProcessInputs {
 
 // N is given as such or as a fraction of solids phi = sum a^3/R0^3. The speed of drying is given as one of
 //   tau                                          lifetime
-//   k = R0^2/tau,        R^2 = R0^2 - k t        evaporation constant (of the radius squared)    (paper, Eq. 7)
-//   v = k/(2 R0)                                 speed of the front at the start                 (paper, Eq. 24)
-//   Pe = R0^2/(D tau) = k/D                      Peclet number, D = kT/(6 pi mu a)               (paper, Eqs. 22-23)
+//   k = R0^2/tau,        R^2 = R0^2 - k t        evaporation constant (of the radius squared)    (Eq. 7)
+//   v = k/(2 R0)                                 speed of the front at the start                 (Eq. 24)
+//   Pe = R0^2/(D tau) = k/D                      Peclet number, D = kT/(6 pi mu a)               (Eqs. 22-23)
 // Throws InputError naming file, line and keys where they contradict each other, say too little, or cannot be.
 ProcessInputs process_inputs(const Scene& scene);
 

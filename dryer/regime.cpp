@@ -20,7 +20,7 @@ DryingRegime drying_regime(const DryingScene& s) {
   r.solids_fraction = solids / (R0 * R0 * R0);
   r.diffusivity = s.model.thermal_energy / drag_coefficient(s.model.viscosity, a);
   r.evaporation_constant = R0 * R0 / droplet.lifetime;
-  r.peclet = r.diffusivity > 0 ? r.evaporation_constant / r.diffusivity : std::numeric_limits<double>::infinity();
+  r.peclet = r.diffusivity > 0 ? droplet.peclet(r.diffusivity) : std::numeric_limits<double>::infinity();
   r.front_speed = droplet.front_speed(R0);
   r.packed_front_speed = droplet.front_speed(std::min(R0, std::cbrt(2 * solids)));
   r.capillary_speed = droplet.surface_tension / (3 * s.model.viscosity);

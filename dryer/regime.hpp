@@ -11,8 +11,8 @@ namespace crumble {
 
 struct DryingRegime {
   double solids_fraction = 0;       // phi = sum a^3/R0^3
-  double diffusivity = 0;           // D, m^2/s                                               (paper, Eq. 23)
-  double peclet = 0;                // Pe = R0^2/(D tau) = k/D, infinite where D = 0           (paper, Eq. 22)
+  double diffusivity = 0;           // D, m^2/s                                               (Eq. 23)
+  double peclet = 0;                // Pe = R0^2/(D tau) = k/D, infinite where D = 0           (Eq. 22)
   double evaporation_constant = 0;  // k = R0^2/tau, m^2/s
   double front_speed = 0;           // v = k/(2 R0), m/s, at the start
   double packed_front_speed = 0;    // v where the solids fill half of the droplet, m/s

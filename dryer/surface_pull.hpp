@@ -9,7 +9,7 @@
 
 namespace crumble {
 
-// Force of capillary_force() (paper, Eq. 8) over the distance from the centre of the droplet, N/m, for a particle of
+// Force of capillary_force() (Eq. 8) over the distance from the centre of the droplet, N/m, for a particle of
 // radius a at a distance whose square is larger than that of the front by `excess`: r - R as a difference of squares,
 // for its digits. 0 where the surface does not cut the particle (surface_cuts()). At most 0; times the position it is
 // the force, good to 1e-5 of the largest (test).

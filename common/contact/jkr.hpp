@@ -27,7 +27,7 @@ struct Jkr {
   double zero_load_radius = 0;  // b0 = [9 pi gamma_s a^2 (1 - nu^2)/(2 E)]^(1/3), m
   double length = 0;            // b0^2/a, m
   double equilibrium_gap = 0;   // -(2/3) b0^2/a, m
-  double pull_off_gap = 0;      // h_po = [3 pi^2 gamma_s^2 a (1 - nu^2)^2/(8 E^2)]^(1/3) (Eq. 11), m
+  double pull_off_gap = 0;      // h_po = [3 pi^2 gamma_s^2 a (1 - nu^2)^2/(8 E^2)]^(1/3), m  (paper, Eq. 11)
 
   Jkr() = default;
   Jkr(const Material& material, double pair_radius);

@@ -14,7 +14,8 @@ struct RelativeMotion {
 
 // u_s = (I - nn)(v_j - v_i) - (l_i W_i + l_j W_j) x n with n from i to j. The lever arms l_i, l_j divide the distance
 // of centres, so that sliding forces at the contact point leave no net torque on the pair. Linear: velocities give
-// rates, displacements give increments. Source: Marshall 2009; rolling measure of Bagi & Kuhn 2004 (paper, Eq. 18).
+// rates, displacements give increments. Source: Marshall 2009; rolling measure of Bagi & Kuhn 2004.
+//   u_r = -a (W_i - W_j) x n, here as the relative angle (I - nn)(W_j - W_i)              (paper, Eq. 18)
 inline RelativeMotion relative_motion(const Eigen::Vector3d& n, const Eigen::Vector3d& v_ij, const Eigen::Vector3d& W_i,
                                       const Eigen::Vector3d& W_j, double l_i, double l_j) {
   const Eigen::Vector3d W_ij = W_j - W_i;

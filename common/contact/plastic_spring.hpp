@@ -6,7 +6,10 @@
 namespace crumble {
 
 // F = -k xi with |F| <= F_crit; beyond, the stored displacement is reset so that k |xi| = F_crit:
-//   xi <- xi F_crit/(k |xi|)                                               (paper, Eqs. 12, 15, 19: "min")
+//   xi <- xi F_crit/(k |xi|)
+//   sliding force    F_s = min(k_s |int u_s dt|, F_s^crit)                                (paper, Eq. 12)
+//   twisting torque  M_t = min(k_t |int W_t dt|, M_t^crit)                                (paper, Eq. 15)
+//   rolling torque   M_r = min(k_r |int u_r dt|, M_r^crit), u_r as a relative angle       (paper, Eq. 19)
 // The cap acts on the magnitude. Without the reset the spring would wind up and push back long after a reversal.
 // Source: Marshall 2009. Displacement: double or Vector3, m or rad; stiffness k >= 0; limit F_crit >= 0, may be
 // infinite. True if the spring yielded.

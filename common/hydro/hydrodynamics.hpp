@@ -25,6 +25,8 @@ struct SphereMotion {
   Eigen::MatrixXd stresslet;  // five-vectors
 };
 
+// Stokesian dynamics: loads = mu R (motion relative to the ambient flow) of all spheres    (paper, Eq. 9)
+// What stands in R is the choice of the method: far_field.hpp, lubrication.hpp, multipole.hpp.
 class Hydrodynamics {
  public:
   // Positions and radii in m, viscosity in Pa s. Throws std::invalid_argument on geometry that check() refuses.

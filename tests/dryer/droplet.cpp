@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "dryer/capillary.hpp"
 #include "dryer/drag.hpp"
 #include "dryer/surface_pull.hpp"
 
