@@ -2,6 +2,10 @@
 #pragma once
 
 #include <fmt/format.h>
+
+// With this HDF5 1.12 and later know under H5O_info_t what 1.10 does: a file number and an address, which H5Oget_info2
+// fills.
+#define H5O_info_t_vers 1
 #include <hdf5.h>
 
 #include <string>
