@@ -183,8 +183,16 @@ class Stages(Sandbox):
         listed = {line.split()[0] for line in self.make("help").stdout.splitlines() if re.match(r"  [a-z0-9-]+  ", line)}
         self.assertEqual(listed, phony)
 
-    def test_ci_runs_the_test_target(self):
-        self.assertIn("pipeline\" test", (pathlib.Path(ROOT) / ".ci" / "run").read_text())
+    def test_ci_runs_the_test_target_and_takes_warnings_for_errors(self):
+        self.assertIn("pipeline\" test WERROR=ON", (pathlib.Path(ROOT) / ".ci" / "run").read_text())
+        self.assertEqual(self.make("test", "WERROR=ON").returncode, 0)
+        self.assertIn("-DCMAKE_COMPILE_WARNING_AS_ERROR=ON", self.called("cmake")[0])
+
+    def test_a_user_s_build_does_not_end_at_a_warning(self):
+        for target in ("build", "test"):
+            self.forget()
+            self.assertEqual(self.make(target).returncode, 0)
+            self.assertEqual([call for call in self.called("cmake") if "ERROR" in call], [])
 
 
 if __name__ == "__main__":
