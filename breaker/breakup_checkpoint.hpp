@@ -2,7 +2,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 
 #include "breaker/run.hpp"
 #include "common/io/checkpoint.hpp"
@@ -13,8 +12,10 @@ namespace crumble {
 struct Progression {
   double next_sample = 0, next_frame = 0;  // Pa
   std::int64_t last_step = -1;             // of the last frame or sample in the file
-  std::optional<double> companion;  // critical stress of the same run with coarser control, Pa; -1: it did not break
+  std::optional<double> companion;  // critical stress of the same run with coarser control, Pa; infinite: nothing broke
   std::int64_t halvings = 0;        // of the tolerance, since the error was too large
+
+  void fields(SavedFields& f);
 };
 
 class BreakupCheckpoint : public OutputCheckpoint {
@@ -23,7 +24,7 @@ class BreakupCheckpoint : public OutputCheckpoint {
 
   Progression progression() const;
   void resume(BreakupRun& run) const;
-  void save(const BreakupRun& run, const Progression& progression) const;
+  void save(BreakupRun& run, Progression progression) const;
 };
 
 }  // namespace crumble

@@ -24,7 +24,7 @@ void Companion::run() {
         throw Interrupted(interrupt_signal(), "stopped during the error estimate, which begins anew");
       if (stop_) return;
     }
-    result_ = run.breakup().severed.value_or(-1);
+    if (run.breakup().severed) result_ = *run.breakup().severed;
     done_ = true;
   } catch (...) {
     failure_ = std::current_exception();

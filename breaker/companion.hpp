@@ -3,7 +3,7 @@
 
 #include <atomic>
 #include <exception>
-#include <optional>
+#include <limits>
 #include <thread>
 
 #include "breaker/run.hpp"
@@ -19,7 +19,7 @@ class Companion {
   Companion& operator=(const Companion&) = delete;
 
   bool done() const { return done_; }
-  // Waits. Critical stress, Pa; -1 where nothing broke. Stops with Interrupted at a signal.
+  // Waits. Critical stress, Pa; infinite where nothing broke. Stops with Interrupted at a signal.
   double critical_stress();
 
  private:
@@ -27,7 +27,7 @@ class Companion {
   const Agglomerate& start_;
   std::thread thread_;
   std::atomic<bool> done_ = false, stop_ = false;
-  double result_ = -1;
+  double result_ = std::numeric_limits<double>::infinity();
   std::exception_ptr failure_;
 
   void run();

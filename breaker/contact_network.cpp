@@ -116,16 +116,15 @@ std::vector<Event> ContactNetwork::take_events() {
   return taken;
 }
 
-std::vector<std::int64_t> ContactNetwork::limits_told() const {
-  std::vector<std::int64_t> numbers;
-  for (const auto& [pair, bits] : told_) numbers.insert(numbers.end(), {pair.i, pair.j, bits});
-  return numbers;
-}
-
-void ContactNetwork::recall_limits(const std::vector<std::int64_t>& numbers) {
-  for (std::size_t k = 0; k + 2 < numbers.size(); k += 3)
-    told_[{static_cast<std::int32_t>(numbers[k]), static_cast<std::int32_t>(numbers[k + 1])}] =
-        static_cast<std::uint8_t>(numbers[k + 2]);
+// Limits that contacts have reached so far. Events are taken after every step.
+void ContactNetwork::fields(SavedFields& f) {
+  std::vector<std::int32_t> i, j;
+  std::vector<std::uint8_t> limits;
+  for (const auto& [pair, bits] : told_) i.push_back(pair.i), j.push_back(pair.j), limits.push_back(bits);
+  f("limits_reached.i", i);
+  f("limits_reached.j", j);
+  f("limits_reached.bits", limits);
+  for (std::size_t k = 0; k < limits.size(); ++k) told_[{i.at(k), j.at(k)}] = limits[k];
 }
 
 NetworkState network_state(const std::vector<Contact>& contacts, const BondLaws& laws) {

@@ -9,6 +9,7 @@
 #include "common/agglomerate/agglomerate.hpp"
 #include "common/agglomerate/open_pairs.hpp"
 #include "common/contact/bond_laws.hpp"
+#include "common/numerics/saved_fields.hpp"
 
 namespace crumble {
 
@@ -47,9 +48,7 @@ class ContactNetwork {
   // What has happened since the last call. A contact that reaches a limit is told once for each kind of limit.
   std::vector<Event> take_events();
 
-  // Limits that contacts have reached so far, for a restart: i, j, bits.
-  std::vector<std::int64_t> limits_told() const;
-  void recall_limits(const std::vector<std::int64_t>& numbers);
+  void fields(SavedFields& f);
 
  private:
   const std::vector<double>& radius_;

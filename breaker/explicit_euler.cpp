@@ -17,7 +17,7 @@ using Eigen::VectorXd;
 ExplicitEuler::ExplicitEuler(const BreakupModel& model, const Protocol& protocol, const std::vector<double>& radius,
                              Frame frame, double step, bool allow_unstable, double coarsening)
     : Integrator(model, protocol, radius, std::move(frame)) {
-  renew();
+  renew(frame_.position);
   limit_ = measured_limit();
   // Without contacts, half of what a free sphere on one of them would be allowed.
   const double loose =
@@ -29,9 +29,8 @@ ExplicitEuler::ExplicitEuler(const BreakupModel& model, const Protocol& protocol
         limit_));
 }
 
-void ExplicitEuler::renew() {
-  hydrodynamics_ =
-      std::make_unique<LaggedHydrodynamics>(Spheres{frame_.position, radius_}, model_.viscosity, model_.hydro);
+void ExplicitEuler::renew(const std::vector<Vector3>& position) {
+  hydrodynamics_ = std::make_unique<LaggedHydrodynamics>(Spheres{position, radius_}, model_.viscosity, model_.hydro);
 }
 
 double ExplicitEuler::measured_limit() {
@@ -63,23 +62,17 @@ double ExplicitEuler::measured_limit() {
   return 2 / lambda;
 }
 
-Integrator::Memory ExplicitEuler::memory() const {
-  Memory m = Integrator::memory();
-  m.numbers.insert(m.numbers.end(), {dt_, limit_});
-  return m;
-}
-
-void ExplicitEuler::recall(const Memory& m) {
-  Integrator::recall(m);
-  dt_ = m.numbers.at(1);
-  limit_ = m.numbers.at(2);
+void ExplicitEuler::fields(SavedFields& f) {
+  Integrator::fields(f);
+  f("step", dt_);
+  f("stability_limit", limit_);
+  std::vector<Vector3> factored_at = hydrodynamics_->factored_at();
+  f("factored_at", factored_at);
+  if (f.loading()) renew(factored_at);
 }
 
 bool ExplicitEuler::step(double latest_time) {
-  if (statistics_.steps % restart_interval == 0)
-    renew();
-  else
-    hydrodynamics_->update(frame_.position);
+  hydrodynamics_->update(frame_.position);
   const double dt = std::min(dt_, latest_time - frame_.time);
   loads_.setZero(6 * static_cast<Eigen::Index>(radius_.size()));
   network_.add_loads(length_, loads_);

@@ -20,22 +20,15 @@ class ExplicitEuler : public Integrator {
   bool step(double latest_time) override;
   Frame laboratory() const override { return frame_; }
 
-  Memory memory() const override;
-  void recall(const Memory& memory) override;
-
-  double step_length() const { return dt_; }
-  // 2/lambda_max of the mobility times the elastic stiffness of the contacts at the start, by power iteration, s.
-  double stability_limit() const { return limit_; }
-
-  // The factor inside the hydrodynamics is begun anew here, so that a run can be taken up to the same bits.
-  static constexpr std::int64_t restart_interval = 200;  // steps
+  void fields(SavedFields& f) override;
 
  private:
   double dt_ = 0, limit_ = 0;
   std::unique_ptr<LaggedHydrodynamics> hydrodynamics_;
   Eigen::VectorXd loads_, increment_;
 
-  void renew();
+  void renew(const std::vector<Vector3>& position);
+  // 2/lambda_max of the mobility times the elastic stiffness of the contacts at the start, by power iteration, s.
   double measured_limit();
 };
 

@@ -161,37 +161,20 @@ Implicit::Attempt Implicit::attempt(double dt) {
   return {true, changed, 0};
 }
 
-Integrator::Memory Implicit::memory() const {
-  Memory m = Integrator::memory();
-  m.numbers.insert(m.numbers.end(), {next_dt_, turn_step_, last_dt_, second_last_dt_, rotation_.w(), rotation_.x(),
-                                     rotation_.y(), rotation_.z()});
-  m.numbers.insert(m.numbers.end(), rate_.begin(), rate_.end());
-  m.numbers.insert(m.numbers.end(), last_rate_.begin(), last_rate_.end());
-  for (const auto* reference : {&far_reference_, &near_reference_})
-    for (const Vector3& x : *reference) m.numbers.insert(m.numbers.end(), x.begin(), x.end());
-  m.counts.insert(m.counts.end(), {history_, deformed_});
-  return m;
-}
-
-void Implicit::recall(const Memory& m) {
-  Integrator::recall(m);
-  auto next = m.numbers.begin() + 1;
-  const auto take = [&] { return *next++; };
-  next_dt_ = take();
-  turn_step_ = take();
-  last_dt_ = take();
-  second_last_dt_ = take();
-  rotation_.w() = take();
-  rotation_.x() = take();
-  rotation_.y() = take();
-  rotation_.z() = take();
-  for (auto* rate : {&rate_, &last_rate_})
-    for (double& v : *rate) v = take();
-  for (auto* reference : {&far_reference_, &near_reference_})
-    for (Vector3& x : *reference)
-      for (double& v : x) v = take();
-  history_ = static_cast<int>(m.counts.at(m.counts.size() - 2));
-  deformed_ = m.counts.back() != 0;
+void Implicit::fields(SavedFields& f) {
+  Integrator::fields(f);
+  f("next_step", next_dt_);
+  f("turn_step", turn_step_);
+  f("last_step", last_dt_);
+  f("second_last_step", second_last_dt_);
+  f("rotation", rotation_);
+  f("rate", rate_);
+  f("last_rate", last_rate_);
+  f("far_field_at", far_reference_);
+  f("lubrication_at", near_reference_);
+  f("smooth_steps", history_);
+  f("deformed", deformed_);
+  if (!f.loading()) return;
   hydrodynamics_.renew_far_field(far_reference_);
   hydrodynamics_.renew_lubrication(near_reference_);
 }

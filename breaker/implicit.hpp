@@ -24,10 +24,8 @@ class Implicit : public Integrator {
 
   const BodyHydrodynamics& hydrodynamics() const { return hydrodynamics_; }
   const Quaternion& rotation() const { return rotation_; }
-  double next_step() const { return next_dt_; }
 
-  Memory memory() const override;
-  void recall(const Memory& memory) override;
+  void fields(SavedFields& f) override;
 
  private:
   double tolerance_;

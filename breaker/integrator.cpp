@@ -35,14 +35,27 @@ bool Integrator::move(const Eigen::VectorXd& q, double time) {
   return changed;
 }
 
-Integrator::Memory Integrator::memory() const {
-  const IntegratorStatistics& s = statistics_;
-  return {{s.largest_overlap}, {s.steps, s.rejected, s.newton_iterations, s.factorisations, s.rigid_steps}};
+void IntegratorStatistics::operator+=(const IntegratorStatistics& other) {
+  steps += other.steps;
+  rejected += other.rejected;
+  newton_iterations += other.newton_iterations;
+  factorisations += other.factorisations;
+  rigid_steps += other.rigid_steps;
+  largest_overlap = std::max(largest_overlap, other.largest_overlap);
 }
 
-void Integrator::recall(const Memory& memory) {
-  const auto& c = memory.counts;
-  statistics_ = {c.at(0), c.at(1), c.at(2), c.at(3), c.at(4), memory.numbers.at(0)};
+void IntegratorStatistics::fields(SavedFields& f) {
+  f("steps", steps);
+  f("rejected", rejected);
+  f("newton_iterations", newton_iterations);
+  f("factorisations", factorisations);
+  f("rigid_steps", rigid_steps);
+  f("largest_overlap", largest_overlap);
+}
+
+void Integrator::fields(SavedFields& f) {
+  statistics_.fields(f);
+  network_.fields(f);
 }
 
 }  // namespace crumble

@@ -5,12 +5,16 @@
 #include "breaker/model.hpp"
 #include "breaker/protocol.hpp"
 #include "common/hydro/linear_flow.hpp"
+#include "common/numerics/saved_fields.hpp"
 
 namespace crumble {
 
 struct IntegratorStatistics {
   std::int64_t steps = 0, rejected = 0, newton_iterations = 0, factorisations = 0, rigid_steps = 0;
   double largest_overlap = 0;  // deepest overlap of any contact at the end of a step, in the pair's radius
+
+  void operator+=(const IntegratorStatistics& other);  // sums and the largest
+  void fields(SavedFields& f);
 };
 
 class Integrator {
@@ -32,12 +36,7 @@ class Integrator {
   const IntegratorStatistics& statistics() const { return statistics_; }
 
   // All that the next step depends on beside the frame, for a restart to the same bits.
-  struct Memory {
-    std::vector<double> numbers;
-    std::vector<std::int64_t> counts;
-  };
-  virtual Memory memory() const;
-  virtual void recall(const Memory& memory);
+  virtual void fields(SavedFields& f);
 
  protected:
   // The frame has positions, orientations and contacts; time 0 is the start of the protocol.

@@ -70,8 +70,7 @@ void run_to_the_end(BreakupRun& run, const BreakerScene& scene, AgglomerateWrite
     }
     while (!run.finished()) {
       advance(run, scene, writer, p, progress);
-      if (interrupt_signal() && run.can_be_saved())
-        throw Interrupted(interrupt_signal(), fmt::format("stopped at {:g} Pa", run.stress()));
+      if (interrupt_signal()) throw Interrupted(interrupt_signal(), fmt::format("stopped at {:g} Pa", run.stress()));
     }
     if (companion && !p.companion) p.companion = companion->critical_stress();
   } catch (const std::exception& error) {

@@ -81,7 +81,7 @@ std::string breakage(const Breakup& b, const BreakerScene& scene) {
 }
 
 std::optional<double> relative_error(const Breakup& b, std::optional<double> companion) {
-  if (!b.severed || !companion || *companion <= 0) return std::nullopt;
+  if (!b.severed || !companion || std::isinf(*companion)) return std::nullopt;
   return std::abs(*companion / *b.severed - 1);
 }
 
@@ -95,7 +95,7 @@ const char* method_name(Rung rung) {
 std::string how_estimated(const BreakerScene& scene, const Breakup& b, std::optional<double> companion) {
   if (!b.severed) return "nothing broke";
   if (!companion) return "not estimated: error.estimate = false";
-  if (*companion <= 0) return "not estimated: the companion run did not break";
+  if (std::isinf(*companion)) return "not estimated: the companion run did not break";
   return scene.is_explicit ? "difference to the same run with half the step"
                            : "difference to the same run with doubled tolerance";
 }

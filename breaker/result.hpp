@@ -20,7 +20,8 @@ double change(double before, double initial);
 // "brittle", "ductile" or "none".
 std::string breakage(const Breakup& breakup, const BreakerScene& scene);
 
-// companion: critical stress of the same run with coarser control; -1: it did not break; nothing: there was none.
+// companion: critical stress of the same run with coarser control, infinite where it did not break; nothing: there was
+// none.
 std::optional<double> relative_error(const Breakup& breakup, std::optional<double> companion);
 void fill_report(Report& report, const BreakerScene& scene, const Start& start, const BreakupRun& run,
                  std::optional<double> companion);

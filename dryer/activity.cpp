@@ -23,17 +23,17 @@ bool Activity::front_at(double R) {
   return woke;
 }
 
-double Activity::next_front() const {
-  for (auto next = waiting_.rbegin(); next != waiting_.rend(); ++next)
-    if (!active_[next->second]) return next->first;
-  return 0;
-}
-
 bool Activity::wake(std::int32_t particle) {
   if (active_[particle]) return false;
   active_[particle] = 1;
   list_.insert(std::lower_bound(list_.begin(), list_.end(), particle), particle);
   return true;
+}
+
+void Activity::fields(SavedFields& f) {
+  std::vector<std::int32_t> awake = list_;
+  f("awake", awake);
+  for (const std::int32_t particle : awake) wake(particle);
 }
 
 }  // namespace crumble

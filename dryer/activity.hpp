@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/agglomerate/agglomerate.hpp"
+#include "common/numerics/saved_fields.hpp"
 
 namespace crumble {
 
@@ -19,8 +20,7 @@ class Activity {
   bool wake(std::int32_t particle);
   bool is_active(std::int32_t particle) const { return active_[particle] != 0; }
   const std::vector<std::int32_t>& active() const { return list_; }  // ascending
-  // The front radius at which the next idle particle is touched; 0 if none is left.
-  double next_front() const;
+  void fields(SavedFields& f);                                       // who is awake
 
  private:
   std::vector<char> active_;

@@ -262,16 +262,9 @@ void Brownian::check_finite() const {
                       state_.state.step, state_.state.time, p, control_.contact_step));
 }
 
-Integrator::Memory Brownian::memory() const {
-  Memory memory = Integrator::memory();
-  for (const Vector6& ahead : ahead_) memory.numbers.insert(memory.numbers.end(), ahead.begin(), ahead.end());
-  return memory;
-}
-
-void Brownian::recall(const Memory& memory) {
-  Integrator::recall(memory);
-  for (std::size_t p = 0; p < ahead_.size(); ++p)
-    for (int k = 0; k < 6; ++k) ahead_[p][k] = memory.numbers.at(1 + 6 * p + static_cast<std::size_t>(k));
+void Brownian::fields(SavedFields& f) {
+  Integrator::fields(f);
+  f("ahead", ahead_);
 }
 
 }  // namespace crumble

@@ -29,8 +29,7 @@ class Brownian : public Integrator {
   // One long step. Throws std::domain_error naming the particle if the state is not finite.
   void step(double latest_time) override;
 
-  Memory memory() const override;
-  void recall(const Memory& memory) override;
+  void fields(SavedFields& f) override;
 
   // contact_step times zeta/k_n of the smallest pair, s.
   static double short_step(const DryingModel& model, double a, double contact_step);

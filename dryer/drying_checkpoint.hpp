@@ -2,24 +2,27 @@
 #pragma once
 
 #include <optional>
-#include <string>
 
 #include "common/io/checkpoint.hpp"
 #include "dryer/run.hpp"
 
 namespace crumble {
 
+// What main keeps beside the run.
+struct DryingProgress {
+  int frames = 0;                    // already in the file
+  std::int64_t last_frame_step = 0;  // of the last of them
+  std::optional<DryingOutcome> companion;
+  void fields(SavedFields& f);
+};
+
 class DryingCheckpoint : public OutputCheckpoint {
  public:
   using OutputCheckpoint::OutputCheckpoint;
 
+  DryingProgress progress() const;
   DryingRun resume(const DryingScene& scene) const;
-  std::optional<DryingOutcome> companion() const;
-  int frames() const;                    // already in the file
-  std::int64_t last_frame_step() const;  // step of the last of them
-
-  void save(const DryingRun& run, const std::optional<DryingOutcome>& companion, int frames,
-            std::int64_t last_frame_step) const;
+  void save(DryingRun& run, DryingProgress progress) const;
 };
 
 }  // namespace crumble

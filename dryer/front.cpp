@@ -16,6 +16,12 @@ DryCrust dry_crust(const Particles& particles, const Frame& frame, double R) {
   return covered > 0 ? DryCrust{std::min(covered, 1.0), reach / covered} : DryCrust{};
 }
 
+void Front::fields(SavedFields& f) {
+  f("front_time", past_.time);
+  f("front_reduced_time", past_.reduced);
+  f("front_rate", past_.rate);
+}
+
 void Front::follow(const Agglomerate& state) {
   if (!may_slow_down()) return;
   const double now = state.state.time;

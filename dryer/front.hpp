@@ -2,6 +2,7 @@
 #pragma once
 
 #include "common/agglomerate/agglomerate.hpp"
+#include "common/numerics/saved_fields.hpp"
 #include "dryer/droplet.hpp"
 
 namespace crumble {
@@ -40,14 +41,13 @@ class Front {
   bool may_slow_down() const { return relative_ < 1; }
   void follow(const Agglomerate& state);
 
+  void fields(SavedFields& f);
+
+ private:
   // Since `time` the front has been where Eq. 7 has it at `reduced`, and `rate` times as fast.
   struct Past {
     double time = 0, reduced = 0, rate = 1;  // s, s, -
   };
-  const Past& past() const { return past_; }
-  void recall(const Past& past) { past_ = past; }
-
- private:
   double reduced(double time) const { return past_.reduced + past_.rate * (time - past_.time); }
 
   const Droplet& droplet_;

@@ -31,18 +31,10 @@ Implicit::Implicit(const DryingModel& model, Agglomerate& state, const ImplicitC
     if (field->size() != state.particles.size()) field->assign(state.particles.size(), Vector3::Zero());
 }
 
-Integrator::Memory Implicit::memory() const {
-  Memory memory = Integrator::memory();
-  memory.numbers.push_back(next_dt_);
-  for (const Vector6& rate : rate_) memory.numbers.insert(memory.numbers.end(), rate.begin(), rate.end());
-  return memory;
-}
-
-void Implicit::recall(const Memory& memory) {
-  Integrator::recall(memory);
-  next_dt_ = memory.numbers.at(1);
-  for (std::size_t p = 0; p < rate_.size(); ++p)
-    for (int k = 0; k < 6; ++k) rate_[p][k] = memory.numbers.at(2 + 6 * p + k);
+void Implicit::fields(SavedFields& f) {
+  Integrator::fields(f);
+  f("next_step", next_dt_);
+  f("rate", rate_);
 }
 
 // The step that moves the front by the largest displacement allowed, or up to the next particle if nothing moves.

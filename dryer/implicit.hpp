@@ -23,8 +23,7 @@ class Implicit : public Integrator {
   // and the worst particle if no step length converges.
   void step(double latest_time) override;
 
-  Memory memory() const override;
-  void recall(const Memory& memory) override;
+  void fields(SavedFields& f) override;
 
  private:
   struct Attempt {

@@ -20,7 +20,7 @@ Integrator::Integrator(const DryingModel& model, Agglomerate& state, double skin
       smallest_radius_(smallest(state.particles.radius)) {
   const Frame& f = state.state;
   if (skin > 0) open_.update(f.position, state.particles.radius, f.contacts);
-  if (f.time == 0) activity_.front_at(front_.radius(0));  // later the front may be slower than it looks: recall()
+  if (f.time == 0) activity_.front_at(front_.radius(0));  // later the front may be slower than it looks: fields()
   if (model.thermal_energy > 0)
     for (std::size_t p = 0; p < state.particles.size(); ++p) activity_.wake(static_cast<std::int32_t>(p));
 }
@@ -72,23 +72,16 @@ Contact& Integrator::bond(const Pair& pair) {
                        radius[pair.j], f.step));
 }
 
-Integrator::Memory Integrator::memory() const {
-  const IntegratorStatistics& s = statistics_;
-  Memory memory;
-  memory.numbers = {s.largest_overlap};
-  memory.front = front_.past();
-  memory.counts = {s.steps, s.rejected, s.newton_iterations, s.particle_steps, s.contacts_made, s.contacts_lost};
-  for (std::size_t p = 0; p < state_.particles.size(); ++p)
-    memory.active.push_back(activity_.is_active(static_cast<std::int32_t>(p)));
-  return memory;
-}
-
-void Integrator::recall(const Memory& memory) {
-  const auto& c = memory.counts;
-  front_.recall(memory.front);
-  statistics_ = {c.at(0), c.at(1), c.at(2), c.at(3), c.at(4), c.at(5), memory.numbers.at(0)};
-  for (std::size_t p = 0; p < state_.particles.size(); ++p)
-    if (memory.active.at(p)) activity_.wake(static_cast<std::int32_t>(p));
+void Integrator::fields(SavedFields& f) {
+  f("steps", statistics_.steps);
+  f("rejected", statistics_.rejected);
+  f("newton_iterations", statistics_.newton_iterations);
+  f("particle_steps", statistics_.particle_steps);
+  f("contacts_made", statistics_.contacts_made);
+  f("contacts_lost", statistics_.contacts_lost);
+  f("largest_overlap", statistics_.largest_overlap);
+  front_.fields(f);
+  activity_.fields(f);
 }
 
 }  // namespace crumble

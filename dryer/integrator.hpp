@@ -1,4 +1,4 @@
-// What both integrators share: the state, who is active, and the making and losing of contacts.
+// What all integrators share: the state, who is active, and the making and losing of contacts.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +7,7 @@
 #include "common/agglomerate/agglomerate.hpp"
 #include "common/agglomerate/open_pairs.hpp"
 #include "common/contact/bond_laws.hpp"
+#include "common/numerics/saved_fields.hpp"
 #include "dryer/activity.hpp"
 #include "dryer/front.hpp"
 #include "dryer/model.hpp"
@@ -34,14 +35,7 @@ class Integrator {
   const Front& front() const { return front_; }
 
   // All that the next step depends on beside the state, for a restart to the same bits.
-  struct Memory {
-    std::vector<double> numbers;
-    Front::Past front;
-    std::vector<std::int64_t> counts;
-    std::vector<std::uint8_t> active;
-  };
-  virtual Memory memory() const;
-  virtual void recall(const Memory& memory);
+  virtual void fields(SavedFields& f);
 
  protected:
   // skin: how far beyond contact near pairs are listed; all with a gap below `complete` are. In the smallest radius. 0

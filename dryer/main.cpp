@@ -65,25 +65,23 @@ AgglomerateWriter open_writer(const CommandLine& line, const Scene& scene, const
 }
 
 // Steps to the end and writes the frames that fall due. Whatever ends it early leaves a checkpoint.
-void run_to_the_end(DryingRun& run, AgglomerateWriter& writer, DryingCheckpoint& checkpoint,
-                    const std::optional<DryingOutcome>& companion, ProgressPrinter& progress) {
-  int frames = checkpoint.found() ? checkpoint.frames() : 0;
-  std::int64_t last_frame_step = checkpoint.found() ? checkpoint.last_frame_step() : 0;
+void run_to_the_end(DryingRun& run, AgglomerateWriter& writer, const DryingCheckpoint& checkpoint, DryingProgress done,
+                    ProgressPrinter& progress) {
   const auto frame = [&](int number) {
     append_frame(writer, run);
-    frames = number;
-    last_frame_step = run.state().state.step;
+    done.frames = number;
+    done.last_frame_step = run.state().state.step;
   };
   try {
-    if (frames == 0) frame(1);
+    if (done.frames == 0) frame(1);
     while (!run.finished()) {
       advance(run, progress);
-      if (frames_due(run) >= frames) frame(frames_due(run) + 1);
+      if (frames_due(run) >= done.frames) frame(frames_due(run) + 1);
       if (interrupt_signal())
         throw Interrupted(interrupt_signal(), fmt::format("stopped at t = {:g} s", run.state().state.time));
     }
   } catch (const std::exception& error) {
-    checkpoint.save(run, companion, frames, last_frame_step);
+    checkpoint.save(run, done);
     writer.suspend();
     progress.say(fmt::format("the state is kept in {}; the same command goes on from there", checkpoint.path()));
     throw;
@@ -113,24 +111,21 @@ int dry(int argc, const char* const* argv) {
   DryingCheckpoint checkpoint(line.output, {"dryer", provenance.version, text.resolved()});
   if (line.restart) checkpoint.require();
   if (checkpoint.found()) progress.say("resuming from " + checkpoint.path());
-  std::optional<DryingOutcome> companion;
-  if (checkpoint.found())
-    companion = checkpoint.companion();
-  else if (scene.estimate_error)
-    companion = run_companion(scene, line);
+  DryingProgress done = checkpoint.found() ? checkpoint.progress() : DryingProgress{};
+  if (!checkpoint.found() && scene.estimate_error) done.companion = run_companion(scene, line);
   DryingRun run = checkpoint.found() ? checkpoint.resume(scene) : DryingRun(scene, 1);
-  AgglomerateWriter writer = checkpoint.found() ? AgglomerateWriter::resume(line.output, checkpoint.last_frame_step())
+  AgglomerateWriter writer = checkpoint.found() ? AgglomerateWriter::resume(line.output, done.last_frame_step)
                                                 : open_writer(line, text, provenance, run);
-  run_to_the_end(run, writer, checkpoint, companion, progress);
+  run_to_the_end(run, writer, checkpoint, done, progress);
 
   const Morphology result = morphology(run.state().particles, run.state().state);
   write_morphology(writer, result);
   writer.finish("dry");
   checkpoint.remove();
   report.add_earlier(checkpoint.used());
-  fill_report(report, scene, run, result, companion);
+  fill_report(report, scene, run, result, done.companion);
   if (!line.report.empty()) report.write(line.report);
-  fmt::print("{}", result_text(result, companion));
+  fmt::print("{}", result_text(result, done.companion));
   return 0;
 }
 

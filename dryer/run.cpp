@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/agglomerate/saved_frame.hpp"
 #include "dryer/brownian.hpp"
 #include "dryer/inertial.hpp"
 #include "dryer/start.hpp"
@@ -30,25 +31,46 @@ std::unique_ptr<Integrator> make_integrator(const DryingScene& scene, const Dryi
 
 }  // namespace
 
-DryingRun::DryingRun(const DryingScene& scene, double coarsening, Agglomerate state, std::size_t stage)
+DryingRun::DryingRun(const DryingScene& scene, double coarsening, Begin begin)
     : scene_(scene),
       coarsening_(coarsening),
       stages_(softening_stages(scene)),
-      stage_(stage),
-      model_(softened_model(scene, stages_.at(stage).softening)),
-      state_(std::move(state)),
-      integrator_(make_integrator(scene, model_, coarsening, stages_.at(stage).depth, state_)) {}
+      stage_(begin.stage),
+      model_(softened_model(scene, stages_.at(stage_).softening)),
+      state_(std::move(begin.state)),
+      integrator_(make_integrator(scene, model_, coarsening, stages_[stage_].depth, state_)) {}
 
 DryingRun::DryingRun(const DryingScene& scene, double coarsening)
-    : DryingRun(
-          scene, coarsening,
-          random_suspension(scene.radius, scene.model.material.density, scene.model.droplet.initial_radius, scene.seed),
-          0) {}
+    : DryingRun(scene, coarsening,
+                Begin{random_suspension(scene.radius, scene.model.material.density, scene.model.droplet.initial_radius,
+                                        scene.seed)}) {}
 
-DryingRun::DryingRun(const DryingScene& scene, double coarsening, Agglomerate state, const Integrator::Memory& memory,
-                     std::size_t stage)
-    : DryingRun(scene, coarsening, std::move(state), stage) {
-  integrator_->recall(memory);
+namespace {
+
+void begin_fields(SavedFields& f, std::size_t& stage, Frame& frame) {
+  f("softening_stage", stage);
+  saved_frame(f.in("state"), frame);
+}
+
+}  // namespace
+
+DryingRun::Begin DryingRun::saved_begin(const DryingScene& scene, SavedFields& saved) {
+  Begin begin;
+  begin.state.particles = suspended_particles(scene.radius, scene.model.material.density);
+  begin_fields(saved, begin.stage, begin.state.state);
+  return begin;
+}
+
+DryingRun::DryingRun(const DryingScene& scene, SavedFields saved) : DryingRun(scene, 1, saved_begin(scene, saved)) {
+  SavedFields f = saved.in("integrator");
+  integrator_->fields(f);
+  saved.require_all_read();
+}
+
+void DryingRun::save(SavedFields f) {
+  begin_fields(f, stage_, state_.state);
+  SavedFields inside = f.in("integrator");
+  integrator_->fields(inside);
 }
 
 int DryingRun::frames_passed() const {
@@ -81,11 +103,12 @@ bool DryingRun::outgrows_stage() const {
 }
 
 void DryingRun::enter_next_stage() {
-  const Integrator::Memory memory = integrator_->memory();
+  SavedState kept = crumble::save(*integrator_);
+  integrator_.reset();
   ++stage_;
   model_ = softened_model(scene_, stages_[stage_].softening);
   integrator_ = make_integrator(scene_, model_, coarsening_, stages_[stage_].depth, state_);
-  integrator_->recall(memory);
+  load(*integrator_, std::move(kept));
 }
 
 DryingRun::Surface DryingRun::surface() const {

@@ -15,9 +15,10 @@ class DryingRun {
   // coarsening: factor on the step control; 1 for the run itself, 2 for the companion that measures its error.
   DryingRun(const DryingScene& scene, double coarsening);
 
-  // A run that goes on from a saved state.
-  DryingRun(const DryingScene& scene, double coarsening, Agglomerate state, const Integrator::Memory& memory,
-            std::size_t stage);
+  // A run that goes on from a saved state. Throws SavedFieldError if fields are missing or left over.
+  DryingRun(const DryingScene& scene, SavedFields saved);
+  DryingRun(const DryingRun&) = delete;  // the integrator refers to the model and the state
+  DryingRun& operator=(const DryingRun&) = delete;
 
   void step();
   bool finished() const { return state_.state.time >= integrator_->front().end(); }
@@ -28,6 +29,7 @@ class DryingRun {
   int frames_passed() const;
 
   const Agglomerate& state() const { return state_; }
+  void save(SavedFields f);
   const Integrator& integrator() const { return *integrator_; }
   std::size_t stage() const { return stage_; }  // of the softening, softening.hpp
 
@@ -39,7 +41,12 @@ class DryingRun {
   Surface surface() const;
 
  private:
-  DryingRun(const DryingScene& scene, double coarsening, Agglomerate state, std::size_t stage);
+  struct Begin {
+    Agglomerate state;
+    std::size_t stage = 0;
+  };
+  static Begin saved_begin(const DryingScene& scene, SavedFields& saved);
+  DryingRun(const DryingScene& scene, double coarsening, Begin begin);
   double latest_time() const;
   bool outgrows_stage() const;
   void enter_next_stage();

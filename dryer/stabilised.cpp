@@ -362,15 +362,9 @@ void Stabilised::put_back(double begin) {
   release(bonds_);
 }
 
-Integrator::Memory Stabilised::memory() const {
-  Memory memory = Integrator::memory();
-  memory.numbers.push_back(next_dt_);
-  return memory;
-}
-
-void Stabilised::recall(const Memory& memory) {
-  Integrator::recall(memory);
-  next_dt_ = memory.numbers.at(1);
+void Stabilised::fields(SavedFields& f) {
+  Integrator::fields(f);
+  f("next_step", next_dt_);
 }
 
 }  // namespace crumble

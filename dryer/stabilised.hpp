@@ -28,8 +28,7 @@ class Stabilised : public Integrator {
   // Throws std::domain_error naming the particle if the state is not finite.
   void step(double latest_time) override;
 
-  Memory memory() const override;
-  void recall(const Memory& memory) override;
+  void fields(SavedFields& f) override;
 
  private:
   void choose(double R_end);

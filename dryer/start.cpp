@@ -46,9 +46,20 @@ class Occupied {
 
 }  // namespace
 
+Particles suspended_particles(const std::vector<double>& radius, double density) {
+  Particles particles;
+  particles.radius = radius;
+  for (const double a : radius) {
+    particles.mass.push_back(4.0 / 3.0 * std::numbers::pi * a * a * a * density);
+    particles.id.push_back(static_cast<std::int64_t>(particles.id.size()));
+  }
+  particles.species.assign(radius.size(), 0);
+  return particles;
+}
+
 Agglomerate random_suspension(const std::vector<double>& radius, double density, double R0, std::uint64_t seed) {
   constexpr std::uint64_t attempts = 100000;
-  Agglomerate state;
+  Agglomerate state{suspended_particles(radius, density), {}};
   Occupied occupied(state, 2 * *std::max_element(radius.begin(), radius.end()));
   for (std::size_t p = 0; p < radius.size(); ++p) {
     const double a = radius[p];
@@ -63,10 +74,6 @@ Agglomerate random_suspension(const std::vector<double>& radius, double density,
       state.state.position.push_back(x);
       break;
     }
-    state.particles.radius.push_back(a);
-    state.particles.mass.push_back(4.0 / 3.0 * std::numbers::pi * a * a * a * density);
-    state.particles.id.push_back(static_cast<std::int64_t>(p));
-    state.particles.species.push_back(0);
     occupied.add(p);
   }
   return state;

@@ -14,14 +14,18 @@ constexpr int iteration_limit = 60;
 
 LaggedHydrodynamics::LaggedHydrodynamics(const Spheres& spheres, double viscosity, const HydroModel& model,
                                          const LaggedSettings& settings)
-    : IterativeHydrodynamics(spheres, viscosity, model), settings_(settings) {
+    : IterativeHydrodynamics(spheres, viscosity, model), settings_(settings), position_(spheres.position) {
   refresh();
 }
 
-void LaggedHydrodynamics::update(const std::vector<Vector3>& position) { follow(position); }
+void LaggedHydrodynamics::update(const std::vector<Vector3>& position) {
+  position_ = position;
+  follow(position);
+}
 
 void LaggedHydrodynamics::refresh() const {
   ++factorisations_;
+  factored_at_ = position_;
   const Eigen::SparseMatrix<double> near = pair_lubrication().motion_resistance(size());
   if (settings_.single_precision)
     factor_.emplace<ConstrainedFactor<float>>(far_field_mobility(reduced()), near);

@@ -31,6 +31,9 @@ class LaggedHydrodynamics : public IterativeHydrodynamics {
     long products = 0;       // with M, since construction
     int factorisations = 0;  // since construction
   };
+  // Where the spheres were when the preconditioner was made, m. An object that is constructed there and then updated
+  // to the present positions goes on to the same bits.
+  const std::vector<Vector3>& factored_at() const { return factored_at_; }
   Work work() const { return {iterations_, products(), factorisations_}; }
 
  protected:
@@ -39,6 +42,8 @@ class LaggedHydrodynamics : public IterativeHydrodynamics {
 
  private:
   LaggedSettings settings_;
+  std::vector<Vector3> position_;
+  mutable std::vector<Vector3> factored_at_;
   // Renewing the preconditioner and counting work do not change what the operator is.
   mutable std::variant<std::monostate, ConstrainedFactor<float>, ConstrainedFactor<double>> factor_;
   mutable int iterations_ = 0, factorisations_ = 0;

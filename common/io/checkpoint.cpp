@@ -21,11 +21,10 @@ std::string first_difference(const std::string& before, const std::string& now) 
   return fmt::format("'{}' then, '{}' now", line(before), line(now));
 }
 
-template <class T>
-const std::vector<T>& find(const std::map<std::string, std::vector<T>>& arrays, const std::string& name) {
-  const auto found = arrays.find(name);
-  if (found == arrays.end()) throw ContentError("the checkpoint has no array '" + name + "'");
-  return found->second;
+constexpr const char *used_wall = "used.wall_s", *used_cpu = "used.cpu_s";
+void used_fields(SavedFields& f, Cost& used) {
+  f(used_wall, used.wall_s);
+  f(used_cpu, used.cpu_s);
 }
 
 template <class T>
@@ -34,7 +33,7 @@ void write_arrays(hdf5::File& file, const std::map<std::string, std::vector<T>>&
     file.create_dataset<T>("/restart/" + name, {values.size()}).write(std::span<const T>(values));
 }
 
-Checkpoint read_restart(const std::filesystem::path& path, const CheckpointOwner& owner) {
+SavedState read_restart(const std::filesystem::path& path, const CheckpointOwner& owner) {
   const hdf5::File file = hdf5::File::open(path);
   if (file.kind("/restart") != hdf5::Kind::group || file.kind("/restart/scene") != hdf5::Kind::dataset)
     throw ContentError(path.string() + ": not a checkpoint (no /restart)");
@@ -48,35 +47,32 @@ Checkpoint read_restart(const std::filesystem::path& path, const CheckpointOwner
   const std::string scene = file.dataset("/restart/scene").read_text();
   if (scene != owner.scene) refuse("made from another scene: " + first_difference(scene, owner.scene));
 
-  Checkpoint checkpoint;
+  SavedState state;
   for (const std::string& name : group.names()) {
     if (name == "scene") continue;
     const hdf5::Dataset dataset = file.dataset("/restart/" + name);
-    if (dataset.type() == hdf5::Type::float64) checkpoint.reals[name] = dataset.read<double>();
-    if (dataset.type() == hdf5::Type::int64) checkpoint.integers[name] = dataset.read<std::int64_t>();
+    if (dataset.type() == hdf5::Type::float64) state.reals[name] = dataset.read<double>();
+    if (dataset.type() == hdf5::Type::int64) state.integers[name] = dataset.read<std::int64_t>();
   }
-  return checkpoint;
+  return state;
 }
 
 }  // namespace
 
-const std::vector<double>& Checkpoint::real(const std::string& name) const { return find(reals, name); }
-const std::vector<std::int64_t>& Checkpoint::integer(const std::string& name) const { return find(integers, name); }
-
-void save_checkpoint(const std::filesystem::path& path, const CheckpointOwner& owner, const Checkpoint& checkpoint) {
+void save_checkpoint(const std::filesystem::path& path, const CheckpointOwner& owner, const SavedState& state) {
   const std::filesystem::path temporary = path.string() + ".tmp";
   hdf5::File file = hdf5::File::create(temporary);
   hdf5::Group group = file.create_group("/restart");
   group.set_attribute("program", std::string_view(owner.program));
   group.set_attribute("version", std::string_view(owner.version));
   file.write_text("/restart/scene", owner.scene);
-  write_arrays(file, checkpoint.reals);
-  write_arrays(file, checkpoint.integers);
+  write_arrays(file, state.reals);
+  write_arrays(file, state.integers);
   file.close();
   std::filesystem::rename(temporary, path);
 }
 
-Checkpoint load_checkpoint(const std::filesystem::path& path, const CheckpointOwner& owner) {
+SavedState load_checkpoint(const std::filesystem::path& path, const CheckpointOwner& owner) {
   in_child(path, [&] { return read_restart(path, owner), std::string(); });
   return read_restart(path, owner);
 }
@@ -87,13 +83,27 @@ OutputCheckpoint::OutputCheckpoint(const std::string& output, CheckpointOwner ow
       found_(std::filesystem::exists(path_) && std::filesystem::exists(output + ".tmp")) {
   if (!found_) return;
   stored_ = load_checkpoint(path_, owner_);
-  meter_.add_earlier({stored_.real("used").at(0), stored_.real("used").at(1)});
+  Cost used = restored([](SavedFields& f) {
+    Cost cost;
+    used_fields(f, cost);
+    return cost;
+  });
+  for (const char* name : {used_wall, used_cpu}) stored_.reals.erase(name);
+  meter_.add_earlier(used);
 }
 
-void OutputCheckpoint::store(Checkpoint checkpoint) const {
-  const Cost used = meter_.used();
-  checkpoint.reals["used"] = {used.wall_s, used.cpu_s};
-  save_checkpoint(path_, owner_, checkpoint);
+void OutputCheckpoint::refuse(const std::string& what) const {
+  throw InputError(
+      fmt::format("{}: {}: it was made by another build of this program; remove it to start anew", path_, what));
+}
+
+void OutputCheckpoint::store(const std::function<void(SavedFields&)>& visit) const {
+  SavedState state;
+  SavedFields f = SavedFields::saver(state);
+  Cost used = meter_.used();
+  used_fields(f, used);
+  visit(f);
+  save_checkpoint(path_, owner_, state);
 }
 
 void OutputCheckpoint::require() const {

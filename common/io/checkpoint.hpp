@@ -1,37 +1,27 @@
 // The exact state of an interrupted run, private to the program that wrote it.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
-#include <map>
+#include <functional>
 #include <string>
-#include <vector>
 
 #include "common/io/cost.hpp"
+#include "common/numerics/saved_fields.hpp"
 
 namespace crumble {
-
-// Arrays by name, in the program's own units, stored to the bit under /restart.
-struct Checkpoint {
-  std::map<std::string, std::vector<double>> reals;
-  std::map<std::string, std::vector<std::int64_t>> integers;
-
-  // Throw ContentError naming the array if it is missing.
-  const std::vector<double>& real(const std::string& name) const;
-  const std::vector<std::int64_t>& integer(const std::string& name) const;
-};
 
 // Who may continue: the same program, version and resolved scene.
 struct CheckpointOwner {
   std::string program, version, scene;  // scene: the resolved text
 };
 
-// Written under a temporary name and renamed: there is always one whole checkpoint or none.
-void save_checkpoint(const std::filesystem::path& path, const CheckpointOwner& owner, const Checkpoint& checkpoint);
+// The arrays of the state stored to the bit under /restart. Written under a temporary name and renamed: there is always
+// one whole checkpoint or none.
+void save_checkpoint(const std::filesystem::path& path, const CheckpointOwner& owner, const SavedState& state);
 
 // Throws InputError saying which of program, version and scene differs and what to do, ContentError if the file is not
 // a checkpoint.
-Checkpoint load_checkpoint(const std::filesystem::path& path, const CheckpointOwner& owner);
+SavedState load_checkpoint(const std::filesystem::path& path, const CheckpointOwner& owner);
 
 // OUTPUT.checkpoint beside the unfinished OUTPUT.tmp: what the checkpoints of all programs share.
 class OutputCheckpoint {
@@ -48,14 +38,26 @@ class OutputCheckpoint {
   const Cost& used() const { return meter_.earlier(); }
 
  protected:
-  void store(Checkpoint checkpoint) const;
-  const Checkpoint& stored() const { return stored_; }
+  // Stores what `visit` lists.
+  void store(const std::function<void(SavedFields&)>& visit) const;
+  // The answer of `use` to the stored fields; throws InputError naming the field that is missing or not known.
+  template <class Use>
+  auto restored(Use use) const {
+    try {
+      SavedFields f = SavedFields::loader(stored_);
+      return use(f);
+    } catch (const SavedFieldError& error) {
+      refuse(error.what());
+    }
+  }
 
  private:
+  [[noreturn]] void refuse(const std::string& what) const;
+
   std::string path_;
   CheckpointOwner owner_;
   bool found_;
-  Checkpoint stored_;
+  SavedState stored_;
   CostMeter meter_;
 };
 

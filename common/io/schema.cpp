@@ -76,10 +76,11 @@ constexpr auto rows = std::to_array<Entry>({
   {"/observables/capillary_force", frames, f64, "T", "N", dryer, "largest on a particle", "F_c", "8"},
   {"/observables/flow_stress", frames, f64, "T", "Pa", breaker, "viscosity times shear rate", "mu gamma_dot", ""},
   {"/observables/shear_rate", frames, f64, "T", "s-1", breaker, "root of 2 E:E", "gamma_dot", ""},
-  {"/observables/max_tension", frames, f64, "T", "N", breaker, "largest tension of a contact", "N_max", ""},
-  {"/observables/slipping_count", frames, i64, "T", "", none, "contacts at their sliding limit"},
-  {"/observables/rolling_count", frames, i64, "T", "", none, "contacts at their rolling limit"},
-  {"/series/<name>", samples, f64, "K", "any", none, "a scalar sampled more densely than the frames"},
+  {"/observables/max_tension", frames, f64, "T", "N", breaker, "largest tension of a contact of the pieces that still move", "N_max", ""},
+  {"/observables/slipping_count", frames, i64, "T", "", none, "contacts at their sliding limit, of the pieces that still move"},
+  {"/observables/rolling_count", frames, i64, "T", "", none, "contacts at their rolling limit, of the pieces that still move"},
+  {"/series/<name>", samples, f64, "K", "any", none, "a scalar sampled more densely than the frames; of a breakup: size and shape of the largest piece, contacts and "
+   "tensions of all pieces that still move"},
 
   // The last frame's shape
   {"/morphology/diameter", dataset, f64, "", "nm", none, "twice the mean distance of the farthest tenth of the "

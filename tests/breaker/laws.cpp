@@ -183,13 +183,13 @@ TEST(Implicit, DoesNotKnowTheAxesOfTheLaboratory) {
   BreakupModel model = elongation(Rung::fts_relative_lubrication);
   const Protocol ramp({{0, 5e5}});
   Implicit straight(model, ramp, g.particles.radius, g.state, 0.01);
-  const Course one = follow(straight, ramp, {500, 2000}, 5e5);
+  const Outcome one = follow(straight, ramp, {500, 2000}, 5e5);
   for (Vector3& x : g.state.position) x = turn * x;
   for (Contact& c : g.state.contacts) c.normal = turn * c.normal;
   const Eigen::Matrix3d Q = turn.toRotationMatrix();
   model.gradient = Q * model.gradient * Q.transpose();
   Implicit turned(model, ramp, g.particles.radius, g.state, 0.01);
-  const Course two = follow(turned, ramp, {500, 2000}, 5e5);
+  const Outcome two = follow(turned, ramp, {500, 2000}, 5e5);
   for (std::size_t k = 0; k < 2; ++k)
     for (std::size_t b = 0; b < 4; ++b) EXPECT_NEAR(one.gap[k][b], two.gap[k][b], 1e-16);  // 1e-6 of the range
   EXPECT_NEAR(one.critical / two.critical, 1, 1e-6);

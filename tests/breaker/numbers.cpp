@@ -54,7 +54,7 @@ void expect_agreement(const std::vector<Vector3>& centres, Rung rung, double rat
   for (int k = 1; k <= 50; ++k) stresses.push_back(0.95 * estimate * k / 50);
   Implicit fast(model, ramp, g.particles.radius, g.state, 1e-3);
   ExplicitEuler reference(model, ramp, g.particles.radius, g.state, 0, false, fine);
-  const Course one = follow(fast, ramp, stresses, rate), two = follow(reference, ramp, stresses, rate);
+  const Outcome one = follow(fast, ramp, stresses, rate), two = follow(reference, ramp, stresses, rate);
   const double h_po = Jkr(Material{}, a).pull_off_gap;
   double worst = 0;
   for (std::size_t k = 0; k < stresses.size(); ++k)
@@ -90,7 +90,7 @@ TEST(BreakupRun, ThatHasEndedHasEndedAfterARestart) {
     EXPECT_EQ(run.breakup().severed.has_value(), largest > 2e4);
     EXPECT_EQ(run.ending().empty(), largest > 2e4);
     BreakupRun again(scene, doublet, 1);
-    again.recall(run.memory());
+    load(again, save(run));
     EXPECT_TRUE(again.finished());
     EXPECT_EQ(again.ending(), run.ending());
     EXPECT_EQ(again.breakup().severed, run.breakup().severed);

@@ -94,15 +94,15 @@ inline std::vector<double> gaps(const Frame& frame, const std::vector<Contact>& 
   return h;
 }
 
-struct Course {
+struct Outcome {
   std::vector<std::vector<double>> gap;  // of the contacts at the start, at each of the wanted stresses
   double critical = 0;                   // Pa
   std::int64_t steps = 0;
 };
 
 // Follows a ramp from 0 at `rate` to the stresses in turn, then to the first fragment.
-inline Course follow(Integrator& run, const Protocol& protocol, const std::vector<double>& stresses, double rate) {
-  Course course;
+inline Outcome follow(Integrator& run, const Protocol& protocol, const std::vector<double>& stresses, double rate) {
+  Outcome course;
   const std::vector<Contact> pairs = run.frame().contacts;
   for (const double stress : stresses) {
     while (run.frame().time < stress / rate) run.step(stress / rate);

@@ -43,11 +43,11 @@ TEST_P(Restart, continues_to_the_same_bits_from_any_step) {
     const std::string output = folder.file("out.h5");
     std::ofstream(output + ".tmp") << "the unfinished output";
     const CheckpointOwner owner{"dryer", "1", "scene"};
-    DryingCheckpoint(output, owner).save(first, DryingOutcome{1, 2, 3}, 4, 5);
+    DryingCheckpoint(output, owner).save(first, {4, 5, DryingOutcome{1, 2, 3}});
     const DryingCheckpoint found(output, owner);
     ASSERT_TRUE(found.found());
-    EXPECT_EQ(found.companion()->contacts, 3);
-    EXPECT_EQ(found.frames(), 4);
+    EXPECT_EQ(found.progress().companion->contacts, 3);
+    EXPECT_EQ(found.progress().frames, 4);
     EXPECT_GT(found.used().cpu_s, 0);
     DryingRun second = found.resume(scene);
     while (!second.finished()) second.step();
@@ -70,6 +70,34 @@ INSTANTIATE_TEST_SUITE_P(Integrators, Restart,
                          ::testing::Values("overdamped", "stabilised", "inertial", "overdamped_with_noise",
                                            "inertial_with_noise", "overdamped_behind_a_crust",
                                            "inertial_behind_a_crust"));
+
+TEST(Checkpoint, that_lacks_a_field_or_has_one_too_many_is_refused_by_its_name) {
+  const Folder folder;
+  const DryingScene scene = small_scene("stabilised");
+  const std::string output = folder.file("out.h5"), file = output + ".checkpoint";
+  std::ofstream(output + ".tmp") << "the unfinished output";
+  const CheckpointOwner owner{"dryer", "1", "scene"};
+  DryingRun run(scene, 1);
+  run.step();
+  DryingCheckpoint(output, owner).save(run, {1, 0, {}});
+  const SavedState whole = load_checkpoint(file, owner);
+  const auto message = [&](const SavedState& state) {
+    save_checkpoint(file, owner, state);
+    try {
+      DryingCheckpoint(output, owner).resume(scene);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  EXPECT_EQ(message(whole), "no error");
+  SavedState older = whole, newer = whole;
+  older.reals.erase("run.integrator.next_step");
+  newer.reals["run.integrator.new"] = {1};
+  EXPECT_NE(message(older).find(file + ": the field 'run.integrator.next_step' is missing"), std::string::npos);
+  EXPECT_NE(message(newer).find("the field 'run.integrator.new' is not known"), std::string::npos);
+  EXPECT_NE(message(newer).find("remove it to start anew"), std::string::npos);
+}
 
 TEST(Checkpoint, of_another_scene_version_or_program_is_refused_with_the_difference) {
   const Folder folder;

@@ -168,7 +168,7 @@ TEST_P(Hard, case_restarts_in_the_middle_to_the_same_bits) {
   while (state.state.time < middle) run->step(end);
   Agglomerate saved = state;
   const auto other = integrator(GetParam().method, given.model, saved);
-  other->recall(run->memory());
+  load(*other, save(*run));
   // As far as a restart could matter: the lists of neighbours are made anew several times.
   for (int k = 0; k < 2000 && state.state.time < end; ++k) {
     run->step(end);

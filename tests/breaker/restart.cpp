@@ -1,0 +1,71 @@
+// A breakup goes on from its checkpoint to the same bits, with one piece and with several, with either integrator.
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "breaker/breakup_checkpoint.hpp"
+#include "tests/breaker/samples.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace crumble {
+namespace {
+
+using namespace testing;
+
+void expect_equal(const Frame& f, const Frame& g) {
+  EXPECT_EQ(f.time, g.time);
+  EXPECT_EQ(f.step, g.step);
+  EXPECT_EQ(f.position, g.position);
+  ASSERT_EQ(f.contacts.size(), g.contacts.size());
+  for (std::size_t c = 0; c < f.contacts.size(); ++c) {
+    EXPECT_EQ(f.contacts[c].gap, g.contacts[c].gap);
+    EXPECT_EQ(f.contacts[c].rolling, g.contacts[c].rolling);
+  }
+}
+
+class BreakupRestart : public ::testing::TestWithParam<bool> {};
+
+TEST_P(BreakupRestart, ContinuesToTheSameBitsBeforeAndAfterBreakup) {
+  const Agglomerate start = cluster(chain(8));
+  BreakerScene scene;
+  scene.model = elongation(Rung::fts);
+  scene.protocol = Protocol({{0, 2e7}});
+  scene.is_explicit = GetParam();
+  scene.tolerance = 0.03;
+  scene.until_stable = true;
+  scene.stable_strain = 1;
+  BreakupRun whole(scene, start, 1);
+  int steps = 0, broken = 0;
+  for (; !whole.finished(); ++steps) {
+    whole.step();
+    if (!broken && whole.breakup().severed) broken = steps + 1;
+  }
+  ASSERT_GT(broken, 0);
+  ASSERT_GT(steps - broken, 3) << "to cover several pieces";
+  const test::Folder folder;
+  const std::string output = folder.file("out.h5");
+  for (const int stop : {broken / 2 + 1, broken + 1, (broken + steps) / 2}) {
+    BreakupRun first(scene, start, 1);
+    for (int k = 0; k < stop; ++k) first.step();
+    std::ofstream(output + ".tmp") << "the unfinished output";
+    const CheckpointOwner owner{"breaker", "1", "scene"};
+    BreakupCheckpoint(output, owner).save(first, {.next_sample = 5, .companion = 7});
+    const BreakupCheckpoint found(output, owner);
+    ASSERT_TRUE(found.found());
+    EXPECT_EQ(found.progression().companion, 7);
+    BreakupRun second(scene, start, 1);
+    found.resume(second);
+    expect_equal(first.laboratory(), second.laboratory());
+    while (!second.finished()) second.step();
+    expect_equal(whole.laboratory(), second.laboratory());
+    EXPECT_EQ(whole.breakup().severed, second.breakup().severed);
+    EXPECT_EQ(whole.breakup().fragments, second.breakup().fragments);
+    EXPECT_EQ(whole.events().size(), second.events().size());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Integrators, BreakupRestart, ::testing::Bool(),
+                         [](const auto& made_of) { return made_of.param ? "explicit_euler" : "implicit"; });
+
+}  // namespace
+}  // namespace crumble
