@@ -25,6 +25,8 @@ using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<do
 // The points within a distance, in the order of the tree: what nanoflann asks of a result set of one's own. Its
 // radiusSearch would sort them too, and the types of its parameters and results changed their names with version 1.5.
 struct WithinReach {
+  using DistanceType = double;
+  using IndexType = std::size_t;
   double reach_squared;
   std::vector<std::size_t> found;
   std::size_t size() const { return found.size(); }

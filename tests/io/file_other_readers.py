@@ -14,7 +14,12 @@ import h5py
 import numpy as np
 
 warnings.simplefilter("ignore")
-import MDAnalysis  # noqa: E402
+try:
+    import MDAnalysis
+except ModuleNotFoundError as missing:  # Ubuntu 24.04 does not have it
+    if missing.name != "MDAnalysis":
+        raise
+    MDAnalysis = None
 
 
 class OtherReaders(unittest.TestCase):
@@ -67,6 +72,7 @@ class OtherReaders(unittest.TestCase):
                     self.assertEqual("unit" in item.attrs, noun not in pure, name)
             file.visititems(visit)
 
+    @unittest.skipUnless(MDAnalysis, "this system has no MDAnalysis")
     def test_mdanalysis_agrees_on_positions_and_radius_of_gyration(self):
         universe = MDAnalysis.Universe(self.link)
         self.assertEqual(universe.trajectory.n_frames, len(self.frames))

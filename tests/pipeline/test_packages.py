@@ -9,6 +9,7 @@ class Packages(Sandbox):
     def setUp(self):
         super().setUp()
         self.stand_in("apt-get", APT)
+        self.stand_in("apt-cache", "#!/bin/bash\n")  # no lists yet
         # ninja-build is not there at all, libfmt-dev was removed but left its configuration.
         self.stand_in("dpkg-query", """#!/bin/bash
 shift 3
@@ -45,6 +46,18 @@ exit ${code:-0}
         self.assertIn("\n  sudo apt-get update && sudo apt-get install --no-install-recommends -y ninja-build libfmt-dev\n",
                       done.stderr)
         self.assertEqual(self.called("apt-get"), [])
+
+    def test_what_the_release_does_not_have_is_named_and_left_out(self):
+        self.stand_in("apt-cache", '#!/bin/bash\necho "Package: g++"\necho "Package: libfmt-dev"\nexit 100\n')
+        done = self.packages(user=0, sudo_code=1)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("This release has no ninja-build\n", done.stderr)
+        self.assertRegex(self.called("apt-get")[-1], r" install --no-install-recommends -y libfmt-dev$")
+
+    def test_where_only_that_is_missing_nothing_is_installed(self):
+        self.stand_in("apt-cache", '#!/bin/bash\necho "Package: g++"\n')
+        done = self.packages(user=1000, sudo_code=1)
+        self.assertEqual((done.returncode, self.called("apt-get")), (0, []), done.stderr)
 
     def test_a_failed_installation_stops_before_the_build(self):
         self.stand_in("id", "#!/bin/bash\necho 0\n")
