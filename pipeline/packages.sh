@@ -1,11 +1,14 @@
 #!/bin/bash
-# Installs what is missing of packages.txt: as root, or with sudo where that asks for no password. Otherwise prints the
-# command and fails. Says nothing when all is there.
+# packages.sh [SECTION...]: installs what is missing of packages.txt, of its head and of the sections that are named: as root,
+# or with sudo where that asks for no password. Otherwise prints the command and fails. Says nothing when all is there.
 set -euo pipefail
 export PATH="$PATH:/usr/local/sbin:/usr/sbin:/sbin" LC_ALL=C.UTF-8  # dpkg needs ldconfig, which lives in sbin
 
 list="$(dirname "$0")/packages.txt"
-read -r -d '' -a wanted <<< "$(sed 's/#.*//' "$list")" || true
+read -r -d '' -a wanted <<< "$(awk -v sections=" $* " '
+  { sub(/#.*/, "") }
+  /^\[/ { gsub(/[][ ]/, ""); outside = !index(sections, " " $0 " "); next }
+  !outside' "$list")" || true
 
 if ! command -v dpkg-query > /dev/null; then
   echo "This is not Debian. Crumble needs what Debian calls: ${wanted[*]}. Going on in the hope that it is there." >&2
