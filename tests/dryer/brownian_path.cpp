@@ -22,7 +22,7 @@ TEST(BrownianPath, fine_increments_fill_the_coarse_one) {
   const BrownianPath path(7);
   const auto particles = ids(13);
   std::vector<float> fine;
-  std::vector<double> whole;
+  std::vector<float> whole;
   for (const std::uint64_t interval : {0, 1, 2, 77}) {
     path.whole(particles, interval, whole);
     for (const int depth : {0, 1, 2, 5}) {
@@ -65,7 +65,7 @@ TEST(BrownianPath, a_particle_has_its_path_whoever_is_asked_for_with_it) {
 TEST(BrownianPath, other_seeds_particles_and_intervals_are_other_numbers) {
   const auto first = [](std::uint64_t seed, std::uint32_t particle, std::uint64_t interval) {
     const std::vector<std::uint32_t> one = {particle};
-    std::vector<double> out;
+    std::vector<float> out;
     BrownianPath(seed).whole(one, interval, out);
     return out[0];
   };
