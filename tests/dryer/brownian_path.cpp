@@ -6,6 +6,8 @@
 
 #include <cmath>
 
+#include "common/numerics/noise.hpp"
+
 using namespace crumble;
 
 namespace {
@@ -60,6 +62,19 @@ TEST(BrownianPath, a_particle_has_its_path_whoever_is_asked_for_with_it) {
   const std::vector<std::uint32_t> one = {6};
   path.fill(one, 4, 4, 16, alone);
   for (std::size_t row = 0; row < 6 << 4; ++row) EXPECT_EQ(alone[row * 16], together[row * 16 + 6]);
+}
+
+// The sine is taken from a cosine in single precision, whose last digit is 3e-4 of it where it is smallest.
+TEST(BrownianPath, increments_are_those_of_Box_and_Muller_from_its_words) {
+  const auto particles = ids(999);
+  std::vector<float> out;
+  BrownianPath(7).whole(particles, 5, out);
+  for (const std::uint32_t p : particles) {
+    const auto reference = random_normals(7, Purpose::brownian_path, p, 5);
+    EXPECT_NEAR(out[p], reference[0], 5e-6);
+    EXPECT_NEAR(out[999 + p], reference[1], 3e-3);
+    EXPECT_NEAR(out[2 * 999 + p], reference[2], 5e-6);
+  }
 }
 
 TEST(BrownianPath, other_seeds_particles_and_intervals_are_other_numbers) {
