@@ -36,7 +36,7 @@ void BondBlock::clear(std::size_t places, std::size_t expected) {
     array.clear();
     array.reserve(room);
   });
-  deepest_.setZero();
+  deepest_ = 0;
   degree_.assign(places, 0);
   links_.assign(places * capacity_, 0);
 }
@@ -64,7 +64,8 @@ void BondBlock::unlink(std::int32_t place, std::int32_t end) {
 void BondBlock::add(const Contact& bond, std::int32_t i, std::int32_t j, const BondLaw& law, double a_i, double a_j,
                     double lost_gap) {
   // The lanes beyond the last bond repeat one, so that they compute nothing harmful.
-  const auto put = [&]<class Number>(std::vector<Number>& array, auto value) {
+  const auto put = [&]<class Array>(Array& array, auto value) {
+    using Number = typename Array::value_type;
     if (array.size() == count_) array.resize(count_ + lanes, static_cast<Number>(value));
     array[count_] = static_cast<Number>(value);
   };
@@ -148,59 +149,72 @@ namespace {
 
 using V = LaneVector;
 
-inline V read_vector(const std::array<std::vector<float>, 3>& array, std::size_t first) {
-  return {read(&array[0][first]), read(&array[1][first]), read(&array[2][first])};
+inline V read(const std::array<AlignedVector<float>, 3>& array, std::size_t first) {
+  return {Lane::load(&array[0][first]), Lane::load(&array[1][first]), Lane::load(&array[2][first])};
 }
-inline void write_vector(std::array<std::vector<float>, 3>& array, std::size_t first, const V& value) {
-  write(&array[0][first], value.x);
-  write(&array[1][first], value.y);
-  write(&array[2][first], value.z);
+inline void write(std::array<AlignedVector<float>, 3>& array, std::size_t first, const V& value) {
+  value.x.store(&array[0][first]);
+  value.y.store(&array[1][first]);
+  value.z.store(&array[2][first]);
+}
+// Displacements between the two places of each bond, and what the places have turned.
+struct Ends {
+  V between, Wi, Wj;
+};
+template <class Between>
+HWY_INLINE Ends read_ends(const std::int32_t* i, const std::int32_t* j, const std::vector<SixVector>& moved,
+                          Between between) {
+  const auto turned = [&](const std::int32_t* place) __attribute__((always_inline)) {
+    return from_quarters([&](std::size_t l) { return Quad::load(moved[place[l]].at + 4); });
+  };
+  return {from_quarters([&](std::size_t l) { return between(i[l], j[l]); }), turned(i), turned(j)};
 }
 // Factor that brings a spring of a given displacement back to its limit, 1 if within.
-inline Lane cap(const Lane& squared, const Lane& limit) { return (limit * squared.max(1e-36f).rsqrt()).min(1); }
+inline Lane cap(const Lane& squared, const Lane& limit) { return min(limit * inverse_sqrt(max(squared, 1e-36f)), 1); }
 
 // Root c of x = h/L = (4 c - 6 c^4)/3 (common/contact/jkr.hpp): a polynomial in w = sqrt(x_f - x), x_f where the branch
 // folds back, fitted from pull-off to x = -5.7 (nine times the equilibrium gap) such that the force is right to 4e-6 in
 // single precision. Beyond, where 2 c^4 is -x and a little more, four steps of Newton.
-inline __attribute__((always_inline)) Lane jkr_root(const Lane& x) {
+HWY_INLINE Lane jkr_root(const Lane& x) {
   constexpr float fold = 0.5503212081491045f, fitted = 2.5f;
-  const Lane below = fold - x, w = below * below.rsqrt();
-  Lane c = 0.5508394749f +
-           w * (0.5205727341f +
-                w * (-0.1533251390f +
-                     w * (0.0666375065f +
-                          w * (-0.0251484611f + w * (0.0067959171f + w * (-0.0011153681f + w * 0.0000820840826f))))));
-  if (w.maxCoeff() > fitted)
-    for (Eigen::Index l = 0; l < c.size(); ++l) {
-      if (w[l] <= fitted) continue;
-      float deep = std::sqrt(std::sqrt(0.75f * below[l]));
-      for (int step = 0; step < 4; ++step) {
-        const float cubed = deep * deep * deep;
-        deep -= (4 * deep - 6 * deep * cubed - 3 * x[l]) / (4 - 24 * cubed);
-      }
-      c[l] = deep;
-    }
-  return c;
+  const Lane below = fold - x, w = sqrt(max(below, 0));
+  const Lane c =
+      0.5508394749f +
+      w * (0.5205727341f +
+           w * (-0.1533251390f +
+                w * (0.0666375065f +
+                     w * (-0.0251484611f + w * (0.0067959171f + w * (-0.0011153681f + w * 0.0000820840826f))))));
+  if (w.largest() <= fitted) return c;
+  Lane deep = sqrt(sqrt(0.75f * max(below, fitted)));
+  for (int step = 0; step < 4; ++step) {
+    const Lane cubed = deep * deep * deep;
+    deep = deep - (4 * deep - 6 * deep * cubed - 3 * x) / (4 - 24 * cubed);
+  }
+  return where_greater(w, fitted, deep, c);
 }
 
 }  // namespace
+
+// The force on j and the torques on both.
+HWY_INLINE void BondBlock::write_loads(std::size_t b, const LaneVector& force, const LaneVector& on_i,
+                                       const LaneVector& on_j) {
+  const Quarters to_j = to_quarters(force), to_i = {-to_j[0], -to_j[1], -to_j[2], -to_j[3]};
+  to_six_vectors(to_i, to_quarters(on_i), &loads_[2 * lanes + 2 * b]);
+  to_six_vectors(to_j, to_quarters(on_j), &loads_[3 * lanes + 2 * b]);
+}
 
 // The bonds of one register, in one go from positions to loads: what is needed only in between stays in registers.
 void BondBlock::move(std::size_t b, const MotionBlock& motion, Extremes& extremes) {
   const std::int32_t *i = &i_[b], *j = &j_[b];
   const auto constant = [&](Constant which) __attribute__((always_inline)) { return this->constant(which, b); };
-  const V D = from_rows([&](std::size_t l) __attribute__((always_inline)) {
-    return in_single(load(motion.position[j[l]]) - load(motion.position[i[l]]));
+  const auto [D, Wi, Wj] = read_ends(i, j, motion.moved, [&](std::int32_t from, std::int32_t to) {
+    return difference(motion.position[to], motion.position[from]);
   });
-  const V Wi =
-      from_rows([&](std::size_t l) __attribute__((always_inline)) { return load_rotation(motion.moved[i[l]]); });
-  const V Wj =
-      from_rows([&](std::size_t l) __attribute__((always_inline)) { return load_rotation(motion.moved[j[l]]); });
   const V W = Wj - Wi;
   const Lane a_i = constant(radius_i), a_j = constant(radius_j), reach = constant(sum_of_radii);
-  const Lane squared = dot(D, D), inverse = squared.rsqrt(), distance = squared * inverse;
+  const Lane squared = dot(D, D), inverse = inverse_sqrt(squared), distance = squared * inverse;
   const Lane gap = (squared - reach * reach) / (distance + reach);
-  const V n0 = read_vector(normal_, b), n = inverse * D, sum = n0 + n, moved = D - read_vector(apart_, b);
+  const V n0 = read(normal_, b), n = inverse * D, sum = n0 + n, moved = D - read(apart_, b);
   // The normal turns little in a step: 1/|sum| and 1/(1 + n0 n) to second order in 1 - n0 n.
   const V turned = n - n0;
   const Lane bend = 0.5f * dot(turned, turned), half = 0.5f + bend * (0.25f + 0.125f * bend);
@@ -215,31 +229,28 @@ void BondBlock::move(std::size_t b, const MotionBlock& motion, Extremes& extreme
     const V v = history - (half * dot(n, history)) * sum, carried = c * v + s * cross(n, v) + increase;
     return carried - dot(n, carried) * n;
   };
-  V sliding = carry(read_vector(sliding_, b), slide), rolling = carry(read_vector(rolling_, b), roll);
+  V sliding = carry(read(sliding_, b), slide), rolling = carry(read(rolling_, b), roll);
   sliding = cap(dot(sliding, sliding), constant(most_sliding)) * sliding;
   rolling = cap(dot(rolling, rolling), constant(most_rolling)) * rolling;
-  const Lane most = constant(most_twisting), twisting = (read(&twisting_[b]) + twist).min(most).max(-most);
-  write_vector(apart_, b, D);
-  write_vector(normal_, b, n);
-  write_vector(sliding_, b, sliding);
-  write_vector(rolling_, b, rolling);
-  write(&twisting_[b], twisting);
-  write(&gap_[b], gap);
+  const Lane most = constant(most_twisting), twisting = max(min(Lane::load(&twisting_[b]) + twist, most), -most);
+  write(apart_, b, D);
+  write(normal_, b, n);
+  write(sliding_, b, sliding);
+  write(rolling_, b, rolling);
+  twisting.store(&twisting_[b]);
+  gap.store(&gap_[b]);
 
-  const Lane reached = read(&lost_gap_[b]);
-  // 0 if open; any gap that is not that of the reach itself differs from it by more than 1e-30 m.
-  const Lane holds = ((reached - gap) * 1e30f).max(0.0f).min(1.0f);
-  const Lane root = jkr_root(gap.min(reached) * constant(inverse_length)), cubed = root * root * root;
+  const Lane reached = Lane::load(&lost_gap_[b]);
+  const Lane holds = where_greater(reached, gap, 1, 0);
+  const Lane root = jkr_root(min(gap, reached) * constant(inverse_length)), cubed = root * root * root;
   const Lane tension = holds * (4 * constant(pull_off) * cubed * (1 - cubed));
   const V F = (-holds * constant(k_s)) * sliding;
   const V M = (-holds * constant(k_t) * twisting) * n - (holds * constant(k_r)) * rolling;
-  const V turn = stretch * cross(n, F), force = F - tension * n, on_i = Lane::Constant(-1) * (M + a_i * turn),
-          on_j = M - a_j * turn;
-  to_rows(Lane::Constant(-1) * force, on_i, &loads_[2 * lanes + 2 * b]);
-  to_rows(force, on_j, &loads_[3 * lanes + 2 * b]);
-  write(&holds_[b], holds);
-  extremes.holding = extremes.holding.min(holds);
-  extremes.deepest = extremes.deepest.max(-gap * constant(inverse_radius));
+  const V turn = stretch * cross(n, F);
+  write_loads(b, F - tension * n, -(M + a_i * turn), M - a_j * turn);
+  holds.store(&holds_[b]);
+  extremes.holding = min(extremes.holding, holds);
+  extremes.deepest = max(extremes.deepest, -gap * constant(inverse_radius));
 }
 
 // Room for the bonds of a while; by themselves arrays double.
@@ -268,47 +279,46 @@ void BondBlock::advance(const MotionBlock& motion) {
       for (std::size_t b = 0; b < count_; b += lanes) move(b, motion, mine);
 #pragma omp critical
       {
-        all.holding = all.holding.min(mine.holding);
-        all.deepest = all.deepest.max(mine.deepest);
+        all.holding = min(all.holding, mine.holding);
+        all.deepest = max(all.deepest, mine.deepest);
       }
     }
   }
-  deepest_ = deepest_.max(all.deepest);
+  deepest_ = std::max(deepest_, all.deepest.largest());
   lost_.clear();
-  if (all.holding.minCoeff() > 0) return;
+  if (all.holding.least() > 0) return;
   for (std::size_t b = 0; b < count_; ++b)
     if (holds_[b] == 0) lost_.push_back(static_cast<std::int32_t>(b));
 }
 
 // dN/dh = 9 F_po/L c^2 (2 c^3 - 1)/(6 c^3 - 1), c of jkr_root.
 Lane BondBlock::slope(std::size_t b) const {
-  const Lane scale = constant(inverse_length, b), root = jkr_root(read(&gap_[b]).min(read(&lost_gap_[b])) * scale),
-             cubed = root * root * root;
-  return (9 * constant(pull_off, b) * scale * root * root * (2 * cubed - 1) / (6 * cubed - 1)).max(0);
+  const Lane scale = constant(inverse_length, b),
+             root = jkr_root(min(Lane::load(&gap_[b]), Lane::load(&lost_gap_[b])) * scale), cubed = root * root * root;
+  return max(9 * constant(pull_off, b) * scale * root * root * (2 * cubed - 1) / (6 * cubed - 1), 0);
 }
 
 void BondBlock::find_stiffness(std::size_t from) {
   const std::size_t first = from / lanes * lanes;
 #pragma omp parallel for schedule(static) if (count_ - first >= many)
-  for (std::size_t b = first; b < count_; b += lanes) write(&slope_[b], slope(b));
+  for (std::size_t b = first; b < count_; b += lanes) slope(b).store(&slope_[b]);
 }
 
 // The law of move() to first order in the ways.
-void BondBlock::move_as_springs(std::size_t b, const std::vector<SixRow>& ways) {
+void BondBlock::move_as_springs(std::size_t b, const std::vector<SixVector>& ways) {
   const std::int32_t *i = &i_[b], *j = &j_[b];
-  const V U = from_rows([&](std::size_t l) { return translation(load(ways[j[l]])) - translation(load(ways[i[l]])); });
-  const V Wi = from_rows([&](std::size_t l) { return load_rotation(ways[i[l]]); });
-  const V Wj = from_rows([&](std::size_t l) { return load_rotation(ways[j[l]]); });
-  const V n = read_vector(normal_, b), W = Wj - Wi;
+  const auto [U, Wi, Wj] = read_ends(i, j, ways, [&](std::int32_t from, std::int32_t to) {
+    return Quad::load(ways[to].at) - Quad::load(ways[from].at);
+  });
+  const V n = read(normal_, b), W = Wj - Wi;
   const Lane a_i = constant(radius_i, b), a_j = constant(radius_j, b), apart = dot(n, U), twist = dot(n, W);
   const V F = (-constant(k_s, b)) * (U - apart * n - cross(a_i * Wi + a_j * Wj, n));
   const V M = (-constant(k_t, b) * twist) * n - constant(k_r, b) * (W - twist * n);
-  const V turn = cross(n, F), force = F - (read(&slope_[b]) * apart) * n;
-  to_rows(Lane::Constant(-1) * force, Lane::Constant(-1) * (M + a_i * turn), &loads_[2 * lanes + 2 * b]);
-  to_rows(force, M - a_j * turn, &loads_[3 * lanes + 2 * b]);
+  const V turn = cross(n, F);
+  write_loads(b, F - (Lane::load(&slope_[b]) * apart) * n, -(M + a_i * turn), M - a_j * turn);
 }
 
-void BondBlock::respond(const std::vector<SixRow>& ways) {
+void BondBlock::respond(const std::vector<SixVector>& ways) {
   make_room_for_loads();
 #pragma omp parallel for schedule(static) if (count_ >= many)
   for (std::size_t b = 0; b < count_; b += lanes) move_as_springs(b, ways);
@@ -321,7 +331,7 @@ BondBlock::Stiffness BondBlock::stiffening_on(std::size_t place) const {
   const std::int32_t* links = links_.data() + place * capacity_;
   for (std::int32_t k = 0; k < degree_[place]; ++k) {
     const auto end = static_cast<std::size_t>(links[k]);
-    const std::size_t b = (end / (2 * lanes) - 1) * lanes + row_of(end % lanes), c = uniform_ ? 0 : b;
+    const std::size_t b = (end / (2 * lanes) - 1) * lanes + lane_at_place[end % lanes], c = uniform_ ? 0 : b;
     const bool fresh = remembered_[b] < 0;
     const float stiffer = slope_[b] - std::max(remembered_[b], 0.0f);
     if (!fresh && stiffer <= 0) continue;

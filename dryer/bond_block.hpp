@@ -11,15 +11,15 @@
 #include "common/agglomerate/bond.hpp"
 #include "common/contact/bond_laws.hpp"
 #include "common/numerics/neighbours.hpp"
-#include "dryer/lane.hpp"
+#include "dryer/six_vector.hpp"
 
 namespace crumble {
 
 // Positions and rotations of a set of particles. Index: place in the set. Positions need all digits, since gaps
 // are differences of them; everything else is a small number of its own.
 struct MotionBlock {
-  std::vector<DoubleRow> position;  // m
-  std::vector<SixRow> moved;        // since the bonds were last advanced, m and rad; of it, bonds read the rotation
+  std::vector<Position> position;  // m
+  std::vector<SixVector> moved;    // since the bonds were last advanced, m and rad; of it, bonds read the rotation
 
   void resize(std::size_t count);
 };
@@ -52,7 +52,7 @@ class BondBlock {
   void find_stiffness(std::size_t from = 0);
   // Loads of the bonds as linear springs, without history, for small ways of the places; in the place of those of
   // advance().
-  void respond(const std::vector<SixRow>& ways);
+  void respond(const std::vector<SixVector>& ways);
   // By how much the bonds of a place have become stiffer since remember_stiffness(), sums over them of
   //   2 k_n nn + 3.5 k_s (I - nn), 3.5 k_s (I - nn) and 2 max(k_r, k_t),   N/m, N/m and N m,
   // with the increase of k_n, the slope of the normal force, and of the others only where the bond is new.
@@ -63,15 +63,15 @@ class BondBlock {
   void remember_stiffness();
   Stiffness stiffening_on(std::size_t place) const;
   const std::vector<std::int32_t>& lost() const { return lost_; }
-  double deepest_overlap() const { return deepest_.maxCoeff(); }  // of all steps since clear(), in the pair's radius
+  double deepest_overlap() const { return deepest_; }  // of all steps since clear(), in the pair's radius
 
   std::int32_t first(std::size_t bond) const { return i_[bond]; }
   std::int32_t second(std::size_t bond) const { return j_[bond]; }
 
  private:
-  // An end of a bond: register, side (0: i, 1: j) and row in one number; 0 for none.
+  // An end of a bond: register, side (0: i, 1: j) and place in one number; 0 for none.
   static std::int32_t end_of(std::size_t bond, std::size_t side) {
-    return static_cast<std::int32_t>((bond / lanes + 1) * (2 * lanes) + side * lanes + row_of(bond % lanes));
+    return static_cast<std::int32_t>((bond / lanes + 1) * (2 * lanes) + side * lanes + place_of_lane(bond % lanes));
   }
   // What depends on the pair's radii and the material alone. most: displacement at which a spring yields.
   enum Constant : std::size_t {
@@ -91,15 +91,16 @@ class BondBlock {
     constant_count
   };
 
-  using Triple = std::array<std::vector<float>, 3>;  // a vector a bond, one array a component
+  using Triple = std::array<AlignedVector<float>, 3>;  // a vector a bond, one array a component
   struct Extremes {
-    Lane holding = Lane::Ones(), deepest = Lane::Zero();
+    Lane holding = 1, deepest = 0;
   };
   void store(std::size_t bond, Contact& contact) const;
   void move(std::size_t first, const MotionBlock& motion, Extremes& extremes);
-  void move_as_springs(std::size_t first, const std::vector<SixRow>& ways);
+  void write_loads(std::size_t first, const LaneVector& force, const LaneVector& on_i, const LaneVector& on_j);
+  void move_as_springs(std::size_t first, const std::vector<SixVector>& ways);
   Lane constant(Constant which, std::size_t first) const {
-    return uniform_ ? Lane(Lane::Constant(constants_[which][0])) : read(&constants_[which][first]);
+    return Lane::load(&constants_[which][uniform_ ? 0 : first]);
   }
   Lane slope(std::size_t first) const;
   void make_room_for_loads();
@@ -110,14 +111,14 @@ class BondBlock {
   std::vector<std::int32_t> i_, j_, lost_;
   std::vector<std::int64_t> born_;
   Triple apart_, normal_, sliding_, rolling_;  // apart: from i to j, m
-  std::vector<float> twisting_, gap_, lost_gap_;
-  std::array<std::vector<float>, constant_count> constants_;  // if uniform, of one register of bonds
-  bool uniform_ = true;                                       // all bonds have the same constants
-  std::vector<SixRow> loads_;      // of bonds on places; index: end, as many zeros first as a register has ends
-  std::vector<float> holds_;       // 1; 0 if the bond is beyond its reach
-  std::vector<float> slope_;       // of the normal force, N/m
-  std::vector<float> remembered_;  // slope; less than 0 where the bond is new
-  Lane deepest_ = Lane::Zero();
+  AlignedVector<float> twisting_, gap_, lost_gap_;
+  std::array<AlignedVector<float>, constant_count> constants_;  // if uniform, of one register of bonds
+  bool uniform_ = true;                                         // all bonds have the same constants
+  AlignedVector<SixVector> loads_;   // of bonds on places; index: end, as many zeros first as a register has ends
+  AlignedVector<float> holds_;       // 1; 0 if the bond is beyond its reach
+  AlignedVector<float> slope_;       // of the normal force, N/m
+  AlignedVector<float> remembered_;  // slope; less than 0 where the bond is new
+  float deepest_ = 0;
 
   // The ends of bonds at each place: capacity_ entries a place, of which degree_ are in use. The next ones up to a
   // multiple of four are none, so that loops over them are guessed right more often.
@@ -131,7 +132,7 @@ class BondBlock {
 
 // In the order of its links: the same bits, however many threads ask.
 inline Six BondBlock::load_on(std::size_t place) const {
-  Six sum{};
+  Six sum;
   const std::int32_t* links = links_.data() + place * capacity_;
   for (std::int32_t k = 0; k < degree_[place]; k += 4)
     for (std::int32_t l = k; l < k + 4; ++l) sum += load(loads_[static_cast<std::size_t>(links[l])]);

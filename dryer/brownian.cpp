@@ -17,6 +17,10 @@ namespace {
 // Six standard deviations of the approach of two particles within `time`, m.
 double approach(double diffusivity, double time) { return 6 * std::sqrt(4 * diffusivity * time); }
 
+SixVector same_for_all_directions(double translation, double rotation) {
+  return six_vector((Vector6() << Vector3::Constant(translation), Vector3::Constant(rotation)).finished());
+}
+
 }  // namespace
 
 double Brownian::short_step(const DryingModel& model, double a, double contact_step) {
@@ -112,22 +116,19 @@ void Brownian::gather() {
   block_.radius.resize(count);
   block_.radius_in_single.assign(padded(count), 0);
   block_.pull.assign(padded(count), 0);
-  for (auto* array : {&block_.drag[0], &block_.drag[1], &block_.noise[0], &block_.noise[1]}) array->resize(count);
-  block_.ahead.resize(count);
+  for (auto* array : {&block_.drag, &block_.noise, &block_.ahead}) array->resize(count);
   for (std::size_t m = 0; m < fast_.size(); ++m) {
     const auto p = static_cast<std::int32_t>(fast_[m]);
     const bool dry = is_dry(p);
     const double mobile = dry ? 1 / model_.dry.drag_factor : 1;
     const double kT = dry && !model_.dry.everything_acts ? 0 : model_.thermal_energy;
-    const double drag[2] = {mobile * drag_[p], mobile * turning_drag_[p]};
-    for (int k = 0; k < 2; ++k) {
-      block_.drag[k][m] = static_cast<float>(drag[k]);
-      block_.noise[k][m] = static_cast<float>(std::sqrt(0.5 * kT * drag[k]));
-    }
+    const double drag = mobile * drag_[p], turning = mobile * turning_drag_[p];
+    block_.drag[m] = same_for_all_directions(drag, turning);
+    block_.noise[m] = same_for_all_directions(std::sqrt(0.5 * kT * drag), std::sqrt(0.5 * kT * turning));
     block_.radius[m] = radius[p];
     block_.radius_in_single[m] = static_cast<float>(radius[p]);
-    motion_.position[m] = double_row(f.position[p]);
-    block_.ahead[m] = six_row(ahead_[p]);
+    motion_.position[m] = position(f.position[p]);
+    block_.ahead[m] = six_vector(ahead_[p]);
   }
   bonds_.clear(fast_.size());
   for (const Contact& bond : f.contacts) add_bond(bond, place_[bond.i], place_[bond.j]);
@@ -140,7 +141,7 @@ void Brownian::gather() {
 // the bonded fraction of the exact law at the default step; see the manual for the test.
 double Brownian::early(std::int32_t i, std::int32_t j) const {
   constexpr double fraction = 0.30;
-  const double n_i = block_.noise[0][i], n_j = block_.noise[0][j];
+  const double n_i = block_.noise[i].at[0], n_j = block_.noise[j].at[0];
   return fraction * 2 * std::sqrt(n_i * n_i + n_j * n_j);
 }
 
@@ -167,7 +168,7 @@ void Brownian::fast_step(int step) {
 
 // Moves to where the contacts live, half of this step's noise beyond y, and keeps the other half for later.
 void Brownian::predict(int step) {
-  const auto move = [&](std::size_t m, Six half) {
+  const auto move = [&](std::size_t m, const Six& half) {
     const Six way = load(block_.ahead[m]) + half;
     store(motion_.position[m], load(motion_.position[m]) + in_double(translation(way)));
     store(motion_.moved[m], way);
@@ -176,22 +177,22 @@ void Brownian::predict(int step) {
   const std::size_t stride = padded(noisy_);
   const float* dW = noise_.data() + static_cast<std::size_t>(step) * 6 * stride;
   for (std::size_t first = 0; first < noisy_; first += lanes) {
-    const auto component = [&](std::size_t k) { return read(dW + k * stride + first); };
-    SixRow noise[lanes];
-    to_rows({component(0), component(1), component(2)}, {component(3), component(4), component(5)}, noise);
-    for (std::size_t m = first; m < std::min(first + lanes, noisy_); ++m) {
-      move(m, six(all(block_.noise[0][m]), all(block_.noise[1][m])) * load(noise[row_of(m - first)]));
-    }
+    const auto component = [&](std::size_t k) { return Lane::load(dW + k * stride + first); };
+    SixVector noise[lanes];
+    to_six_vectors(to_quarters({component(0), component(1), component(2)}),
+                   to_quarters({component(3), component(4), component(5)}), noise);
+    for (std::size_t m = first; m < std::min(first + lanes, noisy_); ++m)
+      move(m, load(block_.noise[m]) * load(noise[place_of_lane(m - first)]));
   }
-  for (std::size_t m = noisy_; m < fast_.size(); ++m) move(m, Six{});
+  for (std::size_t m = noisy_; m < fast_.size(); ++m) move(m, 0);
 }
 
 // Adds the way that the loads push within the step.
 void Brownian::push() {
   surface();
   for (std::size_t m = 0; m < fast_.size(); ++m) {
-    const Six loads = bonds_.load_on(m) + six(all(block_.pull[m]) * in_single(load(motion_.position[m])), Quad{});
-    store(block_.ahead[m], load(block_.ahead[m]) + six(all(block_.drag[0][m]), all(block_.drag[1][m])) * loads);
+    const Six loads = bonds_.load_on(m) + six(block_.pull[m] * in_single(load(motion_.position[m])), 0);
+    store(block_.ahead[m], load(block_.ahead[m]) + load(block_.drag[m]) * loads);
   }
 }
 

@@ -44,11 +44,11 @@ class Brownian : public Integrator {
   Brownian(const DryingModel& model, Agglomerate& state, std::uint64_t seed, const BrownianControl& control,
            const Scales& scales);
 
-  // Particles that take short steps; index: place in the block. Of displacements (m), then of rotations (rad).
+  // Particles that take short steps; index: place in the block.
   struct Fast {
-    std::vector<float> drag[2];   // dt/zeta, dt/zeta_r
-    std::vector<float> noise[2];  // half of the noise of a short step per unit normal number
-    std::vector<SixRow> ahead;    // half of the noise and dt F/zeta
+    std::vector<SixVector> drag;   // dt/zeta, dt/zeta_r
+    std::vector<SixVector> noise;  // half of the noise of a short step per unit normal number, m and rad
+    std::vector<SixVector> ahead;  // half of the noise and dt F/zeta, m and rad
     std::vector<double> radius;
     std::vector<float> radius_in_single;
     std::vector<float> pull;  // of the surface, over the distance from the centre, N/m
@@ -82,8 +82,7 @@ class Brownian : public Integrator {
   std::vector<Pair> open_places_;
   MotionBlock motion_;
   BondBlock bonds_;
-  std::vector<float> noise_;
-  std::vector<double> slow_noise_;
+  std::vector<float> noise_, slow_noise_;
 };
 
 }  // namespace crumble

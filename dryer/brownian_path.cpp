@@ -6,22 +6,28 @@
 #include <numbers>
 
 #include "common/numerics/noise.hpp"
+#include "common/numerics/simd.hpp"
+// After it:
+#include <hwy/contrib/math/math-inl.h>
 
 namespace crumble {
 
 namespace {
 
-// Box & Muller for many numbers at once, in a form that the compiler can vectorise: one pair from u[k], v[k] each. The
-// sine is taken from the cosine and the half of the circle.
-template <class Number>
-void normals(const std::uint32_t* u, const std::uint32_t* v, std::size_t count, Number* first, Number* second) {
-  constexpr Number half = 0.5, unit = 0x1p-32, turn = 2 * std::numbers::pi_v<Number>;
-#pragma omp simd
-  for (std::size_t k = 0; k < count; ++k) {
-    const Number x = (static_cast<Number>(u[k]) + half) * unit, y = (static_cast<Number>(v[k]) + half) * unit;
-    const Number r = std::sqrt(-2 * std::log(x)), c = std::cos(turn * y), s = std::sqrt(std::max(1 - c * c, Number{0}));
-    first[k] = r * c;
-    second[k] = y < half ? r * s : -r * s;
+// Box & Muller for many numbers at once, one pair from u[k], v[k] each; count: of whole registers. The sine is taken
+// from the cosine and the half of the circle.
+void normals(const std::uint32_t* u, const std::uint32_t* v, std::size_t count, float* first, float* second) {
+  using Tag = Simd<float>::Tag;
+  constexpr hn::RebindToUnsigned<Tag> words;
+  constexpr hn::RebindToSigned<Tag> whole;
+  for (std::size_t k = 0; k < count; k += lanes) {
+    const Simd<float> x = (Simd<float>(hn::ConvertTo(Tag(), hn::LoadU(words, u + k))) + 0.5f) * 0x1p-32f,
+                      half_turns = hn::ConvertTo(Tag(), hn::BitCast(whole, hn::LoadU(words, v + k)));
+    const Simd<float> angle = half_turns * (0x1p-31f * std::numbers::pi_v<float>),
+                      r = sqrt(max(-2 * Simd<float>(hn::Log(Tag(), x.at[0])), 0)), c = hn::Cos(Tag(), angle.at[0]),
+                      s = sqrt(max(1 - c * c, 0));
+    (r * c).store(first + k);
+    hn::StoreU(hn::CopySign((r * s).at[0], angle.at[0]), Tag(), second + k);
   }
 }
 
@@ -31,16 +37,20 @@ std::uint64_t node(int depth, std::uint64_t interval) { return static_cast<std::
 }  // namespace
 
 void BrownianPath::whole(std::span<const std::uint32_t> particle, std::uint64_t interval,
-                         std::vector<double>& out) const {
-  const std::size_t count = particle.size();
-  thread_local std::vector<std::uint32_t> words;
-  words.resize(4 * count);
-  out.resize(4 * count);
-  random_words(seed_, Purpose::brownian_path, particle, node(0, interval),
-               {words.data(), words.data() + count, words.data() + 2 * count, words.data() + 3 * count});
+                         std::vector<float>& out) const {
+  const std::size_t count = particle.size(), stride = padded(count);
+  thread_local std::vector<std::uint32_t> id, words;
+  thread_local std::vector<float> all;
+  id.assign(stride, 0);
+  std::copy(particle.begin(), particle.end(), id.begin());
+  words.resize(4 * stride);
+  all.resize(4 * stride);
+  std::uint32_t* w = words.data();
+  random_words(seed_, Purpose::brownian_path, id, node(0, interval), {w, w + stride, w + 2 * stride, w + 3 * stride});
   for (std::size_t k = 0; k < 4; k += 2)
-    normals(words.data() + k * count, words.data() + (k + 1) * count, count, out.data() + k * count,
-            out.data() + (k + 1) * count);
+    normals(w + k * stride, w + (k + 1) * stride, stride, &all[k * stride], &all[(k + 1) * stride]);
+  out.resize(3 * count);
+  for (std::size_t k = 0; k < 3; ++k) std::copy_n(all.data() + k * stride, count, out.data() + k * count);
 }
 
 void BrownianPath::fill(std::span<const std::uint32_t> particle, std::uint64_t interval, int depth, std::size_t stride,

@@ -21,8 +21,8 @@ class BrownianPath {
   explicit BrownianPath(std::uint64_t seed) : seed_(seed) {}
 
   // Translation over the whole interval: out[component * particle.size() + p], components 0-2,
-  // of variance 1. (A fourth row is scratch.)
-  void whole(std::span<const std::uint32_t> particle, std::uint64_t interval, std::vector<double>& out) const;
+  // of variance 1.
+  void whole(std::span<const std::uint32_t> particle, std::uint64_t interval, std::vector<float>& out) const;
 
   // The 2^depth increments that fill the interval: out[(step * 6 + component) * stride + p], each of variance 1 (in
   // units of its own interval), components 0-2 translation, 3-5 rotation. stride >= particle.size(); what it leaves

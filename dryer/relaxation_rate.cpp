@@ -29,10 +29,7 @@ double sum(std::size_t places, Term term) {
   return total;
 }
 
-double dot(Six u, Six v) {
-  const Six w = u * v;
-  return static_cast<double>(w[0] + w[1] + w[2]) + static_cast<double>(w[4] + w[5] + w[6]);
-}
+double dot(const Six& u, const Six& v) { return (u * v).sum(); }
 
 }  // namespace
 
@@ -46,11 +43,11 @@ void Mobility::resize(std::size_t count) {
 double relaxation_rate(BondBlock& bonds, const Mobility& mobility) {
   const std::size_t places = mobility.translation.size();
   if (bonds.size() == 0) return 0;
-  std::vector<SixRow> current(places), before(places);
-  const auto norm = [&](const std::vector<SixRow>& u) {
+  std::vector<SixVector> current(places), before(places);
+  const auto norm = [&](const std::vector<SixVector>& u) {
     return std::sqrt(sum(places, [&](std::size_t m) { return dot(load(u[m]) / mobility.of(m), load(u[m])); }));
   };
-  const auto scale = [&](std::vector<SixRow>& u, double factor) {
+  const auto scale = [&](std::vector<SixVector>& u, double factor) {
 #pragma omp parallel for schedule(static) if (places > many)
     for (std::size_t m = 0; m < places; ++m) store(u[m], static_cast<float>(factor) * load(u[m]));
   };
@@ -58,10 +55,9 @@ double relaxation_rate(BondBlock& bonds, const Mobility& mobility) {
   for (std::size_t m = 0; m < places; ++m) {
     const auto x = random_normals(0, Purpose::eigenvector, static_cast<std::uint32_t>(m), 0),
                y = random_normals(0, Purpose::eigenvector, static_cast<std::uint32_t>(m), 1);
-    const Six mobile = mobility.of(m);
-    const double way = std::sqrt(mobile[0]), turn = std::sqrt(mobile[4]);
+    const double way = std::sqrt(mobility.translation[m]), turn = std::sqrt(mobility.rotation[m]);
     current[m] =
-        six_row((Vector6() << way * x[0], way * x[1], way * x[2], turn * x[3], turn * y[0], turn * y[1]).finished());
+        six_vector((Vector6() << way * x[0], way * x[1], way * x[2], turn * x[3], turn * y[0], turn * y[1]).finished());
   }
   scale(current, 1 / norm(current));
 

@@ -10,7 +10,7 @@ struct Mobility {
   std::vector<float> translation, rotation;  // 1/zeta, m/(N s); 1/zeta_r, rad/(N m s)
 
   void resize(std::size_t count);
-  Six of(std::size_t place) const { return six(all(translation[place]), all(rotation[place])); }
+  Six of(std::size_t place) const { return six(translation[place], rotation[place]); }
 };
 
 // Upper bound of the largest eigenvalue of mobility times stiffness, 1/s: from the largest Ritz value of so many steps

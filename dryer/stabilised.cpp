@@ -142,7 +142,7 @@ void Stabilised::gather() {
   radius_.assign(padded(count), 0);
   for (std::size_t m = 0; m < count; ++m) {
     const double a = state_.particles.radius[chosen_[m]];
-    motion_.position[m] = double_row(f.position[chosen_[m]]);
+    motion_.position[m] = position(f.position[chosen_[m]]);
     mobility_.translation[m] = static_cast<float>(1 / drag_coefficient(model_.viscosity, a));
     mobility_.rotation[m] = static_cast<float>(1 / rotational_drag_coefficient(model_.viscosity, a));
     radius_[m] = static_cast<float>(a);
@@ -183,9 +183,9 @@ bool Stabilised::is_stable(double limit) {
 }
 
 bool Stabilised::nearer(const Pair& places, float gap) const {
-  const Quad D = in_single(load(motion_.position[places.j]) - load(motion_.position[places.i]));
+  const Quad D = difference(motion_.position[places.j], motion_.position[places.i]);
   const float reach = radius_[places.i] + radius_[places.j] + gap;
-  return D[0] * D[0] + D[1] * D[1] + D[2] * D[2] <= reach * reach;
+  return (D * D).sum() <= reach * reach;
 }
 
 // Sorts out of the open pairs those that can meet until the next look.
@@ -241,7 +241,7 @@ void Stabilised::stabilised_step(double latest_time) {
   statistics_.steps += done;
   statistics_.particle_steps += done * static_cast<std::int64_t>(chosen_.size());
   f.step += done;
-  measure([&](std::size_t m) { return load(before_[m]); });
+  measure([&](std::size_t m) { return before_[m]; });
   const double moved = largest_but_snaps(moves_) / control_.largest_displacement;
   next_dt_ = dt * std::clamp(0.9 / std::max(moved * (passed > 0 ? dt / passed : 1), 1e-3), 0.5, 2.0);
 }
@@ -259,15 +259,15 @@ void Stabilised::push(const Chebyshev::Stage& stage, double dt, double R) {
 // The places of one register.
 void Stabilised::push_some(std::size_t first, const Chebyshev::Stage& stage, double dt, double R) {
   const std::size_t count = std::min(lanes, chosen_.size() - first);
-  DoubleRow* position = motion_.position.data() + first;
-  SixRow* moved = motion_.moved.data() + first;
-  alignas(64) float pull[lanes] = {};
+  Position* position = motion_.position.data() + first;
+  SixVector* moved = motion_.moved.data() + first;
+  float pull[lanes] = {};
   surface_pulls(model_.droplet.surface_tension, R, position, &radius_[first], count, pull);
 
   const auto memory = static_cast<float>(stage.memory), push = static_cast<float>(stage.push * dt);
   for (std::size_t l = 0; l < count; ++l) {
-    const DoubleQuad x = load(position[l]);
-    const Six loads = bonds_.load_on(first + l) + six(all(pull[l]) * in_single(x), Quad{});
+    const auto x = load(position[l]);
+    const Six loads = bonds_.load_on(first + l) + six(pull[l] * in_single(x), 0);
     const Six way = memory * load(moved[l]) + push * mobility_.of(first + l) * loads;
     store(moved[l], way);
     store(position[l], x + in_double(translation(way)));
@@ -332,14 +332,14 @@ void Stabilised::measure(From from) {
   moves_.resize(count);
 #pragma omp parallel for schedule(static) if (count > many)
   for (std::size_t m = 0; m < count; ++m) {
-    const Quad D = in_single(load(motion_.position[m]) - from(m));
-    moves_[m] = std::sqrt(D[0] * D[0] + D[1] * D[1] + D[2] * D[2]) / smallest_radius();
+    const Quad D = difference(motion_.position[m], from(m));
+    moves_[m] = std::sqrt((D * D).sum()) / smallest_radius();
   }
 }
 
 // The largest displacement since the beginning of the step().
 double Stabilised::farthest() {
-  measure([&](std::size_t m) { return load(double_row(state_.state.position[chosen_[m]])); });
+  measure([&](std::size_t m) { return position(state_.state.position[chosen_[m]]); });
   return moves_.empty() ? 0 : *std::max_element(moves_.begin(), moves_.end());
 }
 

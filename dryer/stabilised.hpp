@@ -56,7 +56,7 @@ class Stabilised : public Integrator {
   Mobility mobility_;
   double known_rate_ = 0;  // bound for the bonds as they were when their stiffness was last remembered, 1/s
   std::vector<float> radius_;
-  std::vector<DoubleRow> before_;
+  std::vector<Position> before_;
   MotionBlock motion_;  // its ways are the increments of the last evaluation
   BondBlock bonds_;
   std::vector<Pair> open_pairs_, closest_;  // places that may meet within the step, and until the next look

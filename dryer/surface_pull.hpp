@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "dryer/lane.hpp"
+#include "dryer/six_vector.hpp"
 
 namespace crumble {
 
@@ -20,7 +20,7 @@ inline float surface_pull(float surface_tension, float R, float a, float excess)
 }
 
 // pull, radius: padded() to whole registers. Leaves pull as it is where there is no liquid left (R = 0).
-inline void surface_pulls(double surface_tension, double R, const DoubleRow* position, const float* radius,
+inline void surface_pulls(double surface_tension, double R, const Position* position, const float* radius,
                           std::size_t count, float* pull) {
   const auto sigma = static_cast<float>(surface_tension), front = static_cast<float>(R);
   if (front == 0) return;

@@ -2,24 +2,18 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstring>
 #include <numbers>
 #include <span>
+
+#include "common/numerics/simd.hpp"
 
 namespace crumble {
 
 namespace {
 
-// As many receivers at once as the widest register of this processor holds doubles.
-using Lanes = double __attribute__((vector_size(__BIGGEST_ALIGNMENT__)));
-using Bits = std::int64_t __attribute__((vector_size(__BIGGEST_ALIGNMENT__)));
-constexpr int lanes = __BIGGEST_ALIGNMENT__ / sizeof(double);
-
-Lanes load(const double* p) {
-  Lanes v;
-  std::memcpy(&v, p, sizeof v);
-  return v;
-}
+// As many receivers at once as a register holds doubles.
+using Lanes = Simd<double>;
+constexpr int width = Lanes::size;
 
 // A sphere as the others feel it. With a and b the squares over 6 of the radii of receiver and source, the two averages
 // that are needed besides their sum are 4 a + 2.4 b and 2.4 a + 4 b.
@@ -34,34 +28,32 @@ struct Field {
 
 // Starts from half the exponent (error 3.4 %); one step of fifth order and one of third leave 2e-19 before rounding.
 // A root and a division take four times as long.
-Lanes inverse_root(Lanes x) {
-  Bits bits;
-  std::memcpy(&bits, &x, sizeof x);
-  bits = 0x5fe6eb50c7b537a9 - (bits >> 1);
-  Lanes y;
-  std::memcpy(&y, &bits, sizeof y);
+Lanes inverse_root(const Lanes& x) {
+  const hn::RebindToSigned<Lanes::Tag> bits;
+  Lanes y = hn::BitCast(Lanes::Tag(),
+                        hn::Sub(hn::Set(bits, 0x5fe6eb50c7b537a9), hn::ShiftRight<1>(hn::BitCast(bits, x.at[0]))));
   Lanes h = 1 - x * (y * y);
-  y += y * h * (0.5 + h * (0.375 + h * (0.3125 + h * 0.2734375)));
+  y = y + y * h * (0.5 + h * (0.375 + h * (0.3125 + h * 0.2734375)));
   h = 1 - x * (y * y);
   return y + y * h * (0.5 + 0.375 * h);
 }
 
-// The sum of pair_mobility over all sources for `lanes` receivers. Directions are found for some sources at once and
-// kept: a pair alone is a chain of a hundred dependent instructions, of many pairs one covers the waiting of another.
-Field field_at(Lanes x, Lanes y, Lanes z, Lanes a, std::span<const Source> all) {
+// The sum of pair_mobility over all sources for a register of receivers. Directions are found for some sources at once
+// and kept: a pair alone is a chain of a hundred dependent instructions, of many pairs one covers the waiting of
+// another.
+Field field_at(const Lanes& x, const Lanes& y, const Lanes& z, const Lanes& a, std::span<const Source> all) {
   constexpr std::size_t block = 32;
   struct Direction {
     Lanes inverse, nx, ny, nz;
   } direction[block];
   const Lanes a4 = 4 * a, a2_4 = 2.4 * a;
-  Lanes ux{}, uy{}, uz{}, ox{}, oy{}, oz{}, exx{}, exy{}, exz{}, eyy{}, eyz{}, ezz{};
+  Lanes ux, uy, uz, ox, oy, oz, exx, exy, exz, eyy, eyz, ezz;
   for (std::size_t first = 0; first < all.size(); first += block) {
     const std::span<const Source> sources = all.subspan(first, std::min(block, all.size() - first));
     for (std::size_t j = 0; j < sources.size(); ++j) {
       const Lanes rx = x - sources[j].x, ry = y - sources[j].y, rz = z - sources[j].z;
       const Lanes r2 = rx * rx + ry * ry + rz * rz;
-      const Lanes root = inverse_root(r2);
-      const Lanes inverse = r2 > 0 ? root : Lanes{};  // the sphere itself adds nothing
+      const Lanes inverse = where_greater(r2, 0, inverse_root(r2), 0);  // the sphere itself adds nothing
       direction[j] = {inverse, rx * inverse, ry * inverse, rz * inverse};
     }
     for (std::size_t j = 0; j < sources.size(); ++j) {
@@ -112,7 +104,7 @@ Field field_at(Lanes x, Lanes y, Lanes z, Lanes a, std::span<const Source> all) 
 }  // namespace
 
 FarFieldSum::FarFieldSum(const Spheres& s) : n_(s.size()) {
-  const auto length = static_cast<std::size_t>((n_ + lanes - 1) / lanes * lanes);
+  const auto length = static_cast<std::size_t>((n_ + width - 1) / width * width);
   // Padding stands at the last sphere; nobody asks what it feels.
   x_.assign(length, s.position.back().x());
   y_.assign(length, s.position.back().y());
@@ -138,9 +130,10 @@ void FarFieldSum::apply(const double* q, double* w) const {
   }
   constexpr double oseen = 1 / (8 * std::numbers::pi);
 #pragma omp parallel for schedule(static) if (n_ > 1000)
-  for (int first = 0; first < n_; first += lanes) {
-    const Field f = field_at(load(&x_[first]), load(&y_[first]), load(&z_[first]), load(&radius2_[first]), sources);
-    for (int i = first; i < std::min(n_, first + lanes); ++i) {
+  for (int first = 0; first < n_; first += width) {
+    const Field f = field_at(Lanes::load(&x_[first]), Lanes::load(&y_[first]), Lanes::load(&z_[first]),
+                             Lanes::load(&radius2_[first]), sources);
+    for (int i = first; i < std::min(n_, first + width); ++i) {
       const int k = i - first;
       Eigen::Matrix3d E;
       E << f.e[0][k], f.e[1][k], f.e[2][k], f.e[1][k], f.e[3][k], f.e[4][k], f.e[2][k], f.e[4][k], f.e[5][k];

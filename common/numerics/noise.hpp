@@ -37,7 +37,7 @@ inline std::array<std::uint32_t, 4> random_words(std::uint64_t seed, Purpose pur
 }
 
 // The same words for many particles at once, out[k][p] = random_words(seed, purpose, particle[p], index)[k], in
-// registers of eight: 2.3 times as fast as the loop that the compiler makes of it.
+// vector registers.
 void random_words(std::uint64_t seed, Purpose purpose, std::span<const std::uint32_t> particle, std::uint64_t index,
                   const std::array<std::uint32_t*, 4>& out);
 

@@ -70,8 +70,8 @@ TEST(BondBlock, is_the_law_of_the_reference) {
       displacement[p] = 5e-12 * Vector3(x[0], x[1], x[2]) + 0.2 * (Vector3(pitch * p, 0, 0) - s.state.position[p]);
       rotation[p] = 2e-3 * Vector3(x[3], y[0], y[1]);
       s.state.position[p] += displacement[p];
-      motion.position[p] = double_row(s.state.position[p]);
-      motion.moved[p] = six_row((Vector6() << displacement[p], rotation[p]).finished());
+      motion.position[p] = position(s.state.position[p]);
+      motion.moved[p] = six_vector((Vector6() << displacement[p], rotation[p]).finished());
     }
     block.advance(motion);
     std::vector<Vector3> force(20, Vector3::Zero()), torque(20, Vector3::Zero());

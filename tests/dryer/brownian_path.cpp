@@ -6,6 +6,8 @@
 
 #include <cmath>
 
+#include "common/numerics/noise.hpp"
+
 using namespace crumble;
 
 namespace {
@@ -22,7 +24,7 @@ TEST(BrownianPath, fine_increments_fill_the_coarse_one) {
   const BrownianPath path(7);
   const auto particles = ids(13);
   std::vector<float> fine;
-  std::vector<double> whole;
+  std::vector<float> whole;
   for (const std::uint64_t interval : {0, 1, 2, 77}) {
     path.whole(particles, interval, whole);
     for (const int depth : {0, 1, 2, 5}) {
@@ -62,10 +64,23 @@ TEST(BrownianPath, a_particle_has_its_path_whoever_is_asked_for_with_it) {
   for (std::size_t row = 0; row < 6 << 4; ++row) EXPECT_EQ(alone[row * 16], together[row * 16 + 6]);
 }
 
+// The sine is taken from a cosine in single precision, whose last digit is 3e-4 of it where it is smallest.
+TEST(BrownianPath, increments_are_those_of_Box_and_Muller_from_its_words) {
+  const auto particles = ids(999);
+  std::vector<float> out;
+  BrownianPath(7).whole(particles, 5, out);
+  for (const std::uint32_t p : particles) {
+    const auto reference = random_normals(7, Purpose::brownian_path, p, 5);
+    EXPECT_NEAR(out[p], reference[0], 5e-6);
+    EXPECT_NEAR(out[999 + p], reference[1], 3e-3);
+    EXPECT_NEAR(out[2 * 999 + p], reference[2], 5e-6);
+  }
+}
+
 TEST(BrownianPath, other_seeds_particles_and_intervals_are_other_numbers) {
   const auto first = [](std::uint64_t seed, std::uint32_t particle, std::uint64_t interval) {
     const std::vector<std::uint32_t> one = {particle};
-    std::vector<double> out;
+    std::vector<float> out;
     BrownianPath(seed).whole(one, interval, out);
     return out[0];
   };

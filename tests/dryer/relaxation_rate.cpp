@@ -85,7 +85,7 @@ Eigen::MatrixXd matrix(Block& block) {
   Eigen::MatrixXd M(6 * places, 6 * places);
   for (std::size_t q = 0; q < places; ++q)
     for (std::size_t c = 0; c < 6; ++c) {
-      std::vector<SixRow> ways(places);
+      std::vector<SixVector> ways(places);
       const std::size_t at = c < 3 ? c : c + 1;
       ways[q].at[at] = std::sqrt(block.mobility.of(q)[at]);
       block.bonds.respond(ways);
@@ -118,21 +118,21 @@ TEST(BondSprings, are_the_slope_of_the_law) {
   Block block = block_of(n);
   MotionBlock motion;
   motion.resize(n.position.size());
-  for (std::size_t p = 0; p < n.position.size(); ++p) motion.position[p] = double_row(n.position[p]);
+  for (std::size_t p = 0; p < n.position.size(); ++p) motion.position[p] = position(n.position[p]);
   block.bonds.advance(motion);
   block.bonds.find_stiffness();
   std::vector<Six> before;
   for (std::size_t p = 0; p < n.position.size(); ++p) before.push_back(block.bonds.load_on(p));
-  std::vector<SixRow> ways;
+  std::vector<SixVector> ways;
   for (std::size_t p = 0; p < n.position.size(); ++p) {
     const auto x = random_normals(1, Purpose::start_position, static_cast<std::uint32_t>(p), 0),
                y = random_normals(1, Purpose::start_position, static_cast<std::uint32_t>(p), 1);
     // Small beside the range of the bond (0.2 nm), large beside the digits of single precision.
     const Vector6 way =
         (Vector6() << 2e-13 * x[0], 2e-13 * x[1], 2e-13 * x[2], 2e-5 * x[3], 2e-5 * y[0], 2e-5 * y[1]).finished();
-    ways.push_back(six_row(way));
+    ways.push_back(six_vector(way));
     motion.moved[p] = ways.back();
-    motion.position[p] = double_row(n.position[p] + way.head<3>());
+    motion.position[p] = position(n.position[p] + way.head<3>());
   }
   block.bonds.advance(motion);
   std::vector<Six> after;
