@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "common/hydro/dense_kernels.hpp"
+
 namespace crumble {
 
 using Eigen::VectorXd;
@@ -54,8 +56,7 @@ bool ImplicitStep::factorise(const Frame& frame, const Problem& problem, const V
     matrix_.block<6, 6>(6 * bond.j, 6 * bond.j) += K_jj;
     matrix_.block<6, 6>(6 * bond.j, 6 * bond.i) += K_ij.transpose();  // i < j: the lower triangle
   }
-  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(matrix_);
-  return factor.info() == Eigen::Success;
+  return dense::cholesky<double>(matrix_) == 0;
 }
 
 ImplicitStep::Outcome ImplicitStep::solve(const Frame& frame, const Problem& problem, double tolerance, VectorXd& q) {
