@@ -2,14 +2,15 @@
 
 #include <stdexcept>
 
-#include "breaker/triangular.hpp"
+#include "common/hydro/dense_kernels.hpp"
 
 namespace crumble {
 
 using Eigen::MatrixXd;
 
-BodyHydrodynamics::BodyHydrodynamics(const std::vector<double>& radius, double viscosity, const HydroModel& model)
-    : length_(mean_radius(Spheres{{}, radius})), viscosity_(viscosity), model_(model) {
+BodyHydrodynamics::BodyHydrodynamics(const std::vector<double>& radius, double viscosity, const HydroModel& model,
+                                     Precision precision)
+    : length_(mean_radius(Spheres{{}, radius})), viscosity_(viscosity), model_(model), precision_(precision) {
   if (model.rung == Rung::multipole)
     throw std::invalid_argument("a deforming agglomerate needs a far-field rung, not multipoles");
   for (double a : radius) reduced_.radius.push_back(a / length_);
@@ -23,22 +24,31 @@ void BodyHydrodynamics::place(const std::vector<Vector3>& position) {
   check(reduced_);
 }
 
-// With M = L L^T, L = [A 0; B C] in the order [strain | motion]: loads of motions (C C^T)^-1 w, and loads of the
-// strain -e on spheres at rest -(C C^T)^-1 B A^-1 (-e).
 void BodyHydrodynamics::renew_far_field(const std::vector<Vector3>& position) {
   place(position);
-  ++renewals_;
   assemble_far_field(reduced_, mobility_);
-  const int strains = mobility_.interior(), motions = mobility_.motion();
-  const Eigen::LLT<Eigen::Ref<MatrixXd>> factor(mobility_.lower);
-  if (factor.info() != Eigen::Success)
-    throw std::runtime_error("the far-field mobility is not positive definite: do spheres overlap?");
-  far_resistance_ = inverse_from_factor(mobility_.lower.bottomRightCorner(motions, motions));
-  MatrixXd strain = -Eigen::Matrix<double, 5, 5>::Identity().replicate(reduced_.size(), 1);
-  mobility_.lower.topLeftCorner(strains, strains).triangularView<Eigen::Lower>().solveInPlace(strain);
-  const MatrixXd motion = -mobility_.lower.bottomLeftCorner(motions, strains) * strain;
-  far_strain_ = far_resistance_ * motion;
+  if (precision_ == Precision::float32)
+    invert_far_field<float>();
+  else
+    invert_far_field<double>();
   renew_lubrication(position);
+}
+
+// With M = L L^T, L = [A 0; B C] in the order [strain | motion]: loads of motions (C C^T)^-1 w, and loads of the
+// strain -e on spheres at rest -(C C^T)^-1 B A^-1 (-e).
+template <class Scalar>
+void BodyHydrodynamics::invert_far_field() {
+  const int strains = mobility_.interior(), motions = mobility_.motion();
+  dense::Matrix<Scalar> lower = mobility_.lower.cast<Scalar>();
+  if (dense::cholesky<Scalar>(lower) != 0)
+    throw std::runtime_error("the far-field mobility is not positive definite: do spheres overlap?");
+  auto resistance = lower.bottomRightCorner(motions, motions);
+  dense::invert_from_factor<Scalar>(resistance);
+  far_resistance_ = resistance.template cast<double>();
+  dense::Matrix<Scalar> strain = -Eigen::Matrix<Scalar, 5, 5>::Identity().replicate(reduced_.size(), 1);
+  dense::solve<Scalar>(lower.topLeftCorner(strains, strains), strain);
+  const dense::Matrix<Scalar> motion = -lower.bottomLeftCorner(motions, strains) * strain;
+  far_strain_.noalias() = far_resistance_ * motion.template cast<double>();
 }
 
 void BodyHydrodynamics::renew_lubrication(const std::vector<Vector3>& position) {

@@ -23,8 +23,8 @@ void BlockCholesky::set_pattern(std::int32_t blocks, const std::vector<BlockPair
   // Lower triangle by block columns; a column of scalars holds its diagonal block in full (Lower ignores the rest).
   std::vector<std::vector<std::int32_t>> below(blocks);
   for (const BlockPair& pair : pairs) {
-    const auto [row, column] = std::minmax(place_[pair.i], place_[pair.j]);
-    below[row].push_back(column);
+    const auto [column, row] = std::minmax(place_[pair.i], place_[pair.j]);
+    below[column].push_back(row);
   }
   matrix_.resize(6 * blocks, 6 * blocks);
   std::vector<std::int64_t> height(blocks);

@@ -34,13 +34,6 @@ bool is_free(const Joint& joint) {
 
 }  // namespace
 
-ElasticBlocks::Factor::Factor() {
-  cholmod().nmethods = 1;
-  cholmod().method[0].ordering = CHOLMOD_METIS;
-  cholmod().postorder = 1;
-  cholmod().print = 0;
-}
-
 ElasticBlocks::ElasticBlocks(ElasticInput input) : input_(std::move(input)) {
   number_unknowns();
   if (unknowns_ == 0) return;
@@ -50,7 +43,7 @@ ElasticBlocks::ElasticBlocks(ElasticInput input) : input_(std::move(input)) {
   const Sparse stiffness = assemble();
   if (std::any_of(input_.joints.begin(), input_.joints.end(), [](const auto& e) { return is_free(e.joint); }))
     refuse_mechanisms(stiffness);
-  factor_ = std::make_unique<Factor>();
+  factor_ = std::make_unique<SparseCholesky>();
   factor_->compute(stiffness);
   if (factor_->info() != Eigen::Success)
     throw std::runtime_error("the stiffness matrix of the contacts is singular to round-off: stiffnesses too unequal?");
@@ -147,13 +140,13 @@ void ElasticBlocks::refuse_mechanisms(const Sparse& stiffness) const {
   const Eigen::VectorXd diagonal = stiffness.diagonal().cwiseMax(shift);
   Sparse shifted = stiffness;
   for (Eigen::Index k = 0; k < unknowns_; ++k) shifted.coeffRef(k, k) += shift * diagonal[k];
-  Factor factor;
+  SparseCholesky factor;
   factor.compute(shifted);
   Eigen::VectorXd u(unknowns_);
   for (Eigen::Index k = 0; k < unknowns_; ++k) u[k] = std::sin(1.0 + 2.399963 * static_cast<double>(k));
   double quotient = 1;
   for (int round = 0; round < 12; ++round) {
-    u = factor.solve(diagonal.cwiseProduct(u)).eval();
+    u = factor.solve(diagonal.cwiseProduct(u));
     u /= std::sqrt(u.dot(diagonal.cwiseProduct(u)));
     quotient = u.dot(stiffness.selfadjointView<Eigen::Lower>() * u);
     if (quotient < rigid) break;

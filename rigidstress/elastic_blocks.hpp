@@ -1,10 +1,10 @@
 // The statically indeterminate parts of a network: displacement method with one sparse factor for all of them.
 #pragma once
 
-#include <Eigen/CholmodSupport>
 #include <memory>
 #include <vector>
 
+#include "common/numerics/sparse_cholesky.hpp"
 #include "rigidstress/joint.hpp"
 
 namespace crumble {
@@ -32,10 +32,7 @@ class ElasticBlocks {
   void add_loads(Eigen::MatrixXd& load, Eigen::MatrixXd& bonds) const;
 
  private:
-  using Sparse = Eigen::SparseMatrix<double>;
-  struct Factor : Eigen::CholmodSupernodalLLT<Sparse, Eigen::Lower> {
-    Factor();
-  };
+  using Sparse = SparseCholesky::Matrix;
   using Stiffness = Eigen::Matrix<double, 6, 6>;
 
   ElasticInput input_;
@@ -43,7 +40,7 @@ class ElasticBlocks {
   std::vector<bool> held_;        // the particle of its block that does not move
   std::vector<Stiffness> local_;  // D of each joint
   int unknowns_ = 0;
-  std::unique_ptr<Factor> factor_;
+  std::unique_ptr<SparseCholesky> factor_;
 
   void number_unknowns();
   Sparse assemble() const;

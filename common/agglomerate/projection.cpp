@@ -1,6 +1,5 @@
 #include "common/agglomerate/projection.hpp"
 
-#include <Eigen/CholmodSupport>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,11 +7,13 @@
 #include <string>
 #include <utility>
 
+#include "common/numerics/sparse_cholesky.hpp"
+
 namespace crumble {
 namespace {
 
 using Eigen::VectorXd;
-using Sparse = Eigen::SparseMatrix<double>;
+using Sparse = SparseCholesky::Matrix;
 using Index = Eigen::Index;
 
 std::string name(std::size_t i, std::size_t j) { return std::to_string(i) + "-" + std::to_string(j); }
@@ -48,7 +49,6 @@ class LinkMatrix {
       ends_[links[k].i].emplace_back(k, -1.0);
       ends_[links[k].j].emplace_back(k, +1.0);
     }
-    solver_.cholmod().print = 0;
   }
 
   // y = -(J J^T + lambda)^-1 C; false if the factorisation broke down.
@@ -95,7 +95,7 @@ class LinkMatrix {
 
   const std::vector<Link>& links_;
   std::vector<std::vector<std::pair<std::size_t, double>>> ends_;  // links of each particle, with the sign of n there
-  Eigen::CholmodSupernodalLLT<Sparse, Eigen::Lower> solver_;
+  SparseCholesky solver_;
   bool analysed_ = false;
 };
 

@@ -16,18 +16,10 @@ dense::Matrix<Scalar> converted(Eigen::MatrixXd&& matrix) {
     return matrix.cast<Scalar>();
 }
 
-// Eigen multiplies one column by its vector kernels only if it knows at compile time that it is one.
-template <class Left, class Scalar>
-void multiply_add(dense::Block<Scalar> c, const Left& a, const dense::ConstBlock<Scalar>& b, Scalar sign) {
-  if (b.cols() == 1)
-    c.col(0).noalias() += sign * (a * b.col(0));
-  else
-    c.noalias() += sign * (a * b);
-}
-
-template <class Triangle, class Right, class Scalar = typename Right::Scalar>
-dense::Matrix<Scalar> product(const Triangle& a, const Right& b) {
+template <class Triangle, class Scalar>
+dense::Matrix<Scalar> product(const Triangle& a, const dense::Matrix<Scalar>& b) {
   dense::Matrix<Scalar> c(b.rows(), b.cols());
+  // Eigen takes its kernels for vectors only where it knows at compile time that there is one column.
   if (b.cols() == 1)
     c.col(0).noalias() = a * b.col(0);
   else
@@ -42,11 +34,12 @@ dense::Matrix<Scalar> congruence(const dense::ConstBlock<Scalar>& c, const Eigen
   const Eigen::Index n = c.rows();
   const dense::Matrix<Scalar> C = c.template triangularView<Eigen::Lower>();
   const dense::Matrix<Scalar> half = dense::Matrix<Scalar>(C.transpose()) * D.template cast<Scalar>();
-  dense::Matrix<Scalar> result(n, n);
+  dense::Matrix<Scalar> result = dense::Matrix<Scalar>::Zero(n, n);
 #pragma omp parallel for schedule(dynamic) num_threads(dense::threads_for(n))
   for (Eigen::Index j = 0; j < n; j += width) {
     const Eigen::Index rest = n - j, columns = std::min(width, rest);
-    result.block(j, j, rest, columns).noalias() = half.bottomRightCorner(rest, rest) * C.block(j, j, rest, columns);
+    dense::multiply_add<Scalar>(result.block(j, j, rest, columns), 1, half.bottomRightCorner(rest, rest),
+                                C.block(j, j, rest, columns));
   }
   return result;
 }
@@ -81,8 +74,8 @@ void ConstrainedFactor<Scalar>::solve_resistance(Matrix& x) const {
   auto inner = x.topRows(interior_), outer = x.bottomRows(motion_);
   dense::solve<Scalar>(a(), inner);
   dense::solve<Scalar>(c(), outer);
-  multiply_add<decltype(b()), Scalar>(outer, b(), inner, Scalar(-1));
-  multiply_add<decltype(b().transpose()), Scalar>(inner, b().transpose(), outer, Scalar(-1));
+  dense::multiply_add<Scalar>(outer, -1, b(), inner);
+  dense::multiply_add_transposed<Scalar>(inner, -1, b(), outer);
   dense::solve_transposed<Scalar>(c(), outer);
   dense::solve_transposed<Scalar>(a(), inner);
 }
@@ -94,9 +87,9 @@ void ConstrainedFactor<Scalar>::solve_mobility(Matrix& x, Matrix* velocity) cons
   auto inner = x.topRows(interior_), outer = x.bottomRows(motion_);
   dense::solve<Scalar>(a(), inner);
   Matrix t = Matrix::Zero(motion_, x.cols());
-  multiply_add<decltype(b()), Scalar>(t, b(), inner, Scalar(1));
+  dense::multiply_add<Scalar>(t, 1, b(), inner);
   const auto C = c().template triangularView<Eigen::Lower>();
-  Matrix g = product(C.transpose(), outer);
+  Matrix g = product(C.transpose(), Matrix(outer));
   if (has_near_field_) {
     g += t;
     dense::solve<Scalar>(near_, g);
@@ -106,7 +99,7 @@ void ConstrainedFactor<Scalar>::solve_mobility(Matrix& x, Matrix* velocity) cons
     dense::solve_transposed<Scalar>(c(), outer);
   }
   if (velocity != nullptr) *velocity = product(C, Matrix(g + t));
-  multiply_add<decltype(b().transpose()), Scalar>(inner, b().transpose(), g, Scalar(-1));
+  dense::multiply_add_transposed<Scalar>(inner, -1, b(), g);
   dense::solve_transposed<Scalar>(a(), inner);
 }
 

@@ -1,11 +1,12 @@
-// Cholesky factor and triangular products on large dense matrices, float or double.
+// Cholesky factor, inverse and products of large dense matrices, float or double.
 //
-// They run on Eigen's kernels, compiled for the processor that builds, and not on a BLAS that guesses the processor
-// when it is loaded: OpenBLAS 0.3.21 (Debian 12) takes those it does not know for SSE3 machines, and one factor of
-// order 1265 then takes 46 ms instead of 15 (its own AVX-512 kernel, forced by OPENBLAS_CORETYPE: 19).
+// By OpenBLAS or by Eigen, whichever common/numerics/blas.hpp takes on this machine; tests ask for either. Both run
+// on one thread: threads are shared out here, by tiles, so that results do not depend on their number.
 #pragma once
 
 #include <Eigen/Dense>
+
+#include "common/numerics/blas.hpp"
 
 namespace crumble::dense {
 
@@ -16,29 +17,36 @@ using Block = Eigen::Ref<Matrix<Scalar>, 0, Eigen::OuterStride<>>;
 template <class Scalar>
 using ConstBlock = Eigen::Ref<const Matrix<Scalar>, 0, Eigen::OuterStride<>>;
 
-// In-place Cholesky factor in the lower triangle; the upper one is left undefined. Returns 0, or the order of the first
-// leading minor that is not positive definite. Works by tiles, on several OpenMP threads from order `threads_pay_from`
-// on (60 ms of one core: where other programs hold the cores, waiting for a thread costs more than it gains below), on
-// one inside parallel regions; results do not depend on their number.
-template <class Scalar>
-int cholesky(Block<Scalar> a);
-inline constexpr int threads_pay_from = 2000;
+using blas::Kernels;
 
-extern template int cholesky<float>(Block<float>);
-extern template int cholesky<double>(Block<double>);
+// In-place Cholesky factor in the lower triangle; the upper one is left undefined. Returns 0, or the order of the first
+// leading minor that is not positive definite. Works by tiles from order `threads_pay_from` on (60 ms of one core:
+// where other programs hold the cores, waiting for a thread costs more than it gains below), on several OpenMP threads
+// outside of parallel regions.
+template <class Scalar>
+int cholesky(Block<Scalar> a, Kernels by = blas::kernels());
+inline constexpr int threads_pay_from = 2000;
 
 // How many threads a problem of order n deserves here: 1 below threads_pay_from and inside parallel regions.
 int threads_for(Eigen::Index n);
 
 // B <- L^-1 B and L^-T B with the lower triangle L of a.
 template <class Scalar>
-void solve(const ConstBlock<Scalar>& a, Block<Scalar> b);
+void solve(const ConstBlock<Scalar>& a, Block<Scalar> b, Kernels by = blas::kernels());
 template <class Scalar>
-void solve_transposed(const ConstBlock<Scalar>& a, Block<Scalar> b);
+void solve_transposed(const ConstBlock<Scalar>& a, Block<Scalar> b, Kernels by = blas::kernels());
 
-extern template void solve<float>(const ConstBlock<float>&, Block<float>);
-extern template void solve<double>(const ConstBlock<double>&, Block<double>);
-extern template void solve_transposed<float>(const ConstBlock<float>&, Block<float>);
-extern template void solve_transposed<double>(const ConstBlock<double>&, Block<double>);
+// C <- C + sign A B, or C + sign A^T B.
+template <class Scalar>
+void multiply_add(Block<Scalar> c, Scalar sign, const ConstBlock<Scalar>& a, const ConstBlock<Scalar>& b,
+                  Kernels by = blas::kernels());
+template <class Scalar>
+void multiply_add_transposed(Block<Scalar> c, Scalar sign, const ConstBlock<Scalar>& a, const ConstBlock<Scalar>& b,
+                             Kernels by = blas::kernels());
+
+// (L L^T)^-1, both triangles, in place of the lower triangle L, at a third of the cost of solving for the columns of
+// the identity.
+template <class Scalar>
+void invert_from_factor(Block<Scalar> a, Kernels by = blas::kernels());
 
 }  // namespace crumble::dense

@@ -2,32 +2,19 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/CholmodSupport>
 #include <algorithm>
 #include <stdexcept>
 
 #include "common/hydro/krylov.hpp"
+#include "common/numerics/sparse_cholesky.hpp"
 
 namespace crumble {
-
-namespace {
-
-struct Cholesky : Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>> {
-  Cholesky() {
-    cholmod().nmethods = 1;
-    cholmod().method[0].ordering = CHOLMOD_METIS;
-    cholmod().postorder = 1;
-    cholmod().print = 0;
-  }
-};
-
-}  // namespace
 
 // With M replaced by its diagonal: f_strain = w/m, (1/m + D) u = b, f_motion = u/m.
 struct MatrixFreeHydrodynamics::NearField {
   Eigen::VectorXd drag;  // 1/m of stresslets, then of forces and torques
   Eigen::SparseMatrix<double> matrix;
-  Cholesky factor;
+  SparseCholesky factor;
 
   NearField(const Spheres& s, const Lubrication& lubrication) : drag(11 * s.size()) {
     const int n = s.size();

@@ -31,6 +31,7 @@ Provenance read_provenance(const hdf5::Group& root) {
   provenance.dirty = group.attribute<std::uint8_t>("dirty").at(0) != 0;
   provenance.compiler = text("compiler");
   provenance.flags = text("flags");
+  provenance.blas = text("blas");
   provenance.command = text("command");
   provenance.created = text("created");
   provenance.seed = group.attribute<std::uint64_t>("seed").at(0);

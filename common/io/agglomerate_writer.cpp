@@ -151,6 +151,7 @@ void AgglomerateWriter::write_provenance(const Provenance& provenance) {
   group.set_attribute<std::uint8_t>("dirty", dirty, true);
   group.set_attribute("compiler", provenance.compiler);
   group.set_attribute("flags", provenance.flags);
+  group.set_attribute("blas", provenance.blas);
   group.set_attribute("command", provenance.command);
   group.set_attribute("created", provenance.created);
   const std::array<std::uint64_t, 1> seed{provenance.seed};

@@ -11,6 +11,7 @@
 #include "build_info.hpp"
 #include "common/io/hdf5.hpp"
 #include "common/io/sha256.hpp"
+#include "common/numerics/blas.hpp"
 #include "git_revision.hpp"
 
 namespace crumble {
@@ -44,6 +45,7 @@ Provenance make_provenance(std::string program, const std::vector<std::string>& 
   provenance.dirty = build::dirty;
   provenance.compiler = build::compiler;
   provenance.flags = build::flags;
+  provenance.blas = blas::description();
   for (const auto& argument : arguments)
     provenance.command += (provenance.command.empty() ? "" : " ") + shell_quoted(argument);
   const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
@@ -59,8 +61,9 @@ Provenance make_provenance(std::string program, const std::vector<std::string>& 
 }
 
 std::string version_text(const std::string& program) {
-  return fmt::format("{} {}\ncommit {}{}\ncompiler {}\nflags {}\nHDF5 {}\n", program, build::version, build::git,
-                     build::dirty ? " with changes" : "", build::compiler, build::flags, hdf5::library_version());
+  return fmt::format("{} {}\ncommit {}{}\ncompiler {}\nflags {}\nHDF5 {}\nBLAS {}\n", program, build::version,
+                     build::git, build::dirty ? " with changes" : "", build::compiler, build::flags,
+                     hdf5::library_version(), blas::description());
 }
 
 }  // namespace crumble

@@ -14,6 +14,7 @@ struct Provenance {
   std::string git;     // full commit hash, or "unknown"
   bool dirty = false;  // the sources differed from that commit
   std::string compiler, flags;
+  std::string blas;     // whose dense kernels ran, as blas::description() says; empty in files of schema 1.0
   std::string command;  // as typed, quoted for a shell
   std::string created;  // ISO 8601, UTC
   std::uint64_t seed = 0;

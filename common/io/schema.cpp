@@ -137,6 +137,7 @@ constexpr auto rows = std::to_array<Entry>({
   {"/parameters/provenance@dirty", attribute, u8, "", "", all, "1 if the sources differed from that commit"},
   {"/parameters/provenance@compiler", attribute, str, "", "", all, "compiler and version"},
   {"/parameters/provenance@flags", attribute, str, "", "", all, "its options"},
+  {"/parameters/provenance@blas", attribute, str, "", "", none, "BLAS, its kernel, and whether that or Eigen's ran; since 1.1"},
   {"/parameters/provenance@command", attribute, str, "", "", all, "command line"},
   {"/parameters/provenance@created", attribute, str, "", "", all, "ISO 8601, UTC"},
   {"/parameters/provenance@seed", attribute, u64, "", "", all, "seed of the noise and of the start"},

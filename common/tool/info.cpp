@@ -23,10 +23,10 @@ Radii radii_of(const Particles& particles) {
 
 nlohmann::ordered_json as_json(const std::string& file, const FileInfo& info, const Radii& radii) {
   const Provenance& p = info.provenance;
-  nlohmann::ordered_json from{{"program", p.program}, {"version", p.version},   {"git", p.git},
-                              {"dirty", p.dirty},     {"compiler", p.compiler}, {"flags", p.flags},
-                              {"command", p.command}, {"created", p.created},   {"seed", p.seed},
-                              {"rng", p.rng}};
+  nlohmann::ordered_json from{
+      {"program", p.program},   {"version", p.version}, {"git", p.git},   {"dirty", p.dirty},
+      {"compiler", p.compiler}, {"flags", p.flags},     {"blas", p.blas}, {"command", p.command},
+      {"created", p.created},   {"seed", p.seed},       {"rng", p.rng}};
   if (!p.parent.empty()) {
     from["parent"] = p.parent;
     from["parent_sha256"] = p.parent_sha256;
@@ -65,6 +65,7 @@ void as_text(std::ostream& out, const std::string& file, const FileInfo& info, c
   line("format", fmt::format("{}.{}, {} bytes", info.version_major, info.version_minor, info.bytes));
   line("made by", fmt::format("{} {}, commit {}{}", p.program, p.version, p.git, p.dirty ? " with changes" : ""));
   line("built with", p.compiler + " " + p.flags);
+  line("BLAS", p.blas);
   line("command", p.command);
   line("created", p.created);
   if (p.rng != "none") line("seed", fmt::format("{}, {}", p.seed, p.rng));

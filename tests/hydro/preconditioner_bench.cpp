@@ -7,13 +7,13 @@
 // at any cut-off c; CHOLMOD, METIS ordering. Processor time.
 #include <fmt/format.h>
 
-#include <Eigen/CholmodSupport>
 #include <ctime>
 #include <functional>
 #include <numbers>
 
 #include "common/hydro/far_field_sum.hpp"
 #include "common/hydro/sparse_inverse.hpp"
+#include "common/numerics/sparse_cholesky.hpp"
 #include "lattice.hpp"
 
 using namespace crumble;
@@ -110,9 +110,7 @@ int main(int argc, char** argv) {
   measure("sparse inverse", now() - begin, s, [&](const Eigen::VectorXd& r) { return inverse.apply(r); });
   for (int k = 2; k < argc; ++k) {
     begin = now();
-    Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>> factor;
-    factor.cholmod().nmethods = 1;
-    factor.cholmod().method[0].ordering = CHOLMOD_METIS;
+    SparseCholesky factor;
     factor.compute(near_field(s, std::atof(argv[k])));
     if (factor.info() != Eigen::Success) return 1;
     measure(fmt::format("near field to {} a", argv[k]), now() - begin, s,

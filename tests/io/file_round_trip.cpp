@@ -12,6 +12,7 @@
 #include "common/io/agglomerate_reader.hpp"
 #include "common/io/agglomerate_writer.hpp"
 #include "common/io/sha256.hpp"
+#include "common/numerics/blas.hpp"
 #include "tests/io/sample_agglomerate.hpp"
 
 namespace crumble::test {
@@ -82,6 +83,7 @@ TEST(AgglomerateFile, SummarySaysWhatIsInside) {
   EXPECT_EQ(info.last_step, 24);
   EXPECT_EQ(info.provenance.seed, 7u);
   EXPECT_EQ(info.provenance.command, "dryer 'a scene.toml' -o out.h5");
+  EXPECT_EQ(info.provenance.blas, blas::description());
   EXPECT_EQ(info.provenance.created.size(), std::string("2022-01-01T00:00:00Z").size());
   const AgglomerateReader reader(folder / "a.h5");
   EXPECT_EQ(reader.resolved(), "a = 1\nb = \"é\"\n");

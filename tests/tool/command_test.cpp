@@ -27,6 +27,7 @@ TEST(AgglomerateCommand, VersionNamesProgramAndCommit) {
   EXPECT_EQ(ran.code, 0);
   EXPECT_EQ(ran.out.find("agglomerate "), 0u);
   EXPECT_NE(ran.out.find("commit "), std::string::npos);
+  EXPECT_NE(ran.out.find("BLAS OpenBLAS "), std::string::npos);
 }
 
 TEST(AgglomerateCommand, EveryMisuseHasItsOwnMessageAndExitCodeTwo) {
