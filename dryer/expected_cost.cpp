@@ -63,7 +63,7 @@ ExpectedCost stabilised_cost(const DryingScene& s) {
   const BondLaw law(s.model.contact, s.model.material, a, a);
   const double bonds = 12 * std::max(law.normal_stiffness(), law.k_s) / zeta;
   const double rate = std::max(bonds, 4 * surface_rate(droplet, a, zeta, droplet.initial_radius));
-  const double advance = droplet.initial_radius / a / s.control.largest_displacement;
+  const double advance = droplet.initial_radius / a / s.stabilised.largest_displacement;
   const double steps = 2.0 / 3 * std::sqrt(2.5 * rate * droplet.lifetime * advance);
   return {steps, 0.75 * 24e-9 * static_cast<double>(s.radius.size()) * steps};
 }
@@ -72,15 +72,13 @@ ExpectedCost stabilised_cost(const DryingScene& s) {
 
 ExpectedCost expected_cost(const DryingScene& s) {
   const double N = static_cast<double>(s.radius.size());
-  if (s.inertial) {
+  if (s.is(IntegratorKind::inertial)) {
     const double steps = s.model.droplet.lifetime / s.step;
     return {steps, 0.05e-6 * N * steps};
   }
-  if (s.model.thermal_energy > 0) {
-    return brownian_cost(s);
-  }
-  if (s.stabilised) return stabilised_cost(s);
-  const double advance = s.model.droplet.initial_radius / s.smallest_radius() / s.control.largest_displacement;
+  if (s.is(IntegratorKind::brownian)) return brownian_cost(s);
+  if (s.is(IntegratorKind::stabilised)) return stabilised_cost(s);
+  const double advance = s.model.droplet.initial_radius / s.smallest_radius() / s.implicit.largest_displacement;
   const double steps = advance / 0.8 + 5.5 * std::pow(N, 0.75);
   return {steps, 3e-6 * std::pow(N, 0.23) * N * steps};
 }
@@ -88,9 +86,9 @@ ExpectedCost expected_cost(const DryingScene& s) {
 std::string expected_cost_text(const DryingScene& s) {
   const ExpectedCost cost = expected_cost(s);
   return fmt::format("expected: about {} steps, {} on one core{}", rounded(cost.steps), duration(cost.seconds),
-                     !s.estimate_error ? ""
-                     : s.stabilised    ? ", and about three quarters as much for the error estimate"
-                                       : ", and about half as much for the error estimate");
+                     !s.estimate_error                  ? ""
+                     : s.is(IntegratorKind::stabilised) ? ", and about three quarters as much for the error estimate"
+                                                        : ", and about half as much for the error estimate");
 }
 
 }  // namespace crumble

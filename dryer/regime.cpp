@@ -43,9 +43,12 @@ std::string DryingRegime::words() const {
   return text;
 }
 
+bool steps_are_free(const DryingScene& s) { return s.is(IntegratorKind::stabilised) || s.is(IntegratorKind::implicit); }
+
 std::string integrator_text(const DryingScene& s) {
-  return s.stabilised ? "explicit stabilised steps: as many evaluations as the stiffest contact asks for, no equations"
-                      : "implicit steps: as long as the motion is smooth, each the solution of equations for all";
+  return s.is(IntegratorKind::stabilised)
+             ? "explicit stabilised steps: as many evaluations as the stiffest contact asks for, no equations"
+             : "implicit steps: as long as the motion is smooth, each the solution of equations for all";
 }
 
 std::vector<std::string> describe(const DryingScene& s) {
@@ -84,7 +87,7 @@ std::vector<std::string> describe(const DryingScene& s) {
                               m / drag_coefficient(mu, a), drag_coefficient(mu, a) / law.normal_stiffness(),
                               s.model.droplet.lifetime));
   lines.push_back(r.words());
-  if (!s.diffuses() && !s.inertial) lines.push_back(fmt::format("integrator: {}", integrator_text(s)));
+  if (steps_are_free(s)) lines.push_back(fmt::format("integrator: {}", integrator_text(s)));
   lines.push_back(expected_cost_text(s));
   return lines;
 }
@@ -105,7 +108,7 @@ void report_regime(Report& report, const DryingScene& s) {
   report.result("inputs.front_speed_m_per_s", r.front_speed);
   report.result("inputs.capillary_speed_limit_m_per_s", r.capillary_speed);
   report.result("inputs.regime", r.words());
-  if (!s.diffuses() && !s.inertial) report.result("inputs.integrator", integrator_text(s));
+  if (steps_are_free(s)) report.result("inputs.integrator", integrator_text(s));
 }
 
 }  // namespace crumble

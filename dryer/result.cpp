@@ -38,11 +38,11 @@ void fill_left_out(Report& report, const DryingScene& scene, const DryingRun& ru
         spared));
     report.left_out.push_back(
         "Brownian motion: no diffusion (Pe = infinity), no random number is drawn after the start");
-  } else if (!scene.inertial) {
+  } else if (scene.is(IntegratorKind::brownian)) {
     report.left_out.push_back(
         fmt::format("short steps: {:.0f} % of the particle time went in long steps, far from any contact", spared));
   }
-  if (!scene.inertial) {
+  if (!scene.is(IntegratorKind::inertial)) {
     const double a = scene.largest_radius(), mu = scene.model.viscosity;
     const double inertia = 2 * scene.model.material.density * a * a / (9 * mu);
     report.left_out.push_back(fmt::format("inertia: velocities relax within {:.2g} s, the liquid lives {:.2g} s",

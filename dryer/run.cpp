@@ -9,27 +9,30 @@
 
 namespace crumble {
 
-namespace {
-
 std::unique_ptr<Integrator> make_integrator(const DryingScene& scene, const DryingModel& model, double coarsening,
                                             int depth, Agglomerate& state) {
-  if (scene.inertial) return std::make_unique<Inertial>(model, state, coarsening * scene.step, scene.seed);
-  if (model.thermal_energy > 0) {
-    BrownianControl control = scene.brownian;
-    control.contact_step *= coarsening;
-    control.depth = depth;
-    return std::make_unique<Brownian>(model, state, scene.seed, control);
+  switch (scene.integrator) {
+    case IntegratorKind::inertial:
+      return std::make_unique<Inertial>(model, state, coarsening * scene.step, scene.seed);
+    case IntegratorKind::brownian: {
+      BrownianControl control = scene.brownian;
+      control.contact_step *= coarsening;
+      control.depth = depth;
+      return std::make_unique<Brownian>(model, state, scene.seed, control);
+    }
+    case IntegratorKind::stabilised: {
+      StabilisedControl control = scene.stabilised;
+      control.largest_displacement *= coarsening;
+      return std::make_unique<Stabilised>(model, state, control);
+    }
+    case IntegratorKind::implicit:
+      break;
   }
-  if (scene.stabilised)
-    return std::make_unique<Stabilised>(model, state,
-                                        StabilisedControl{coarsening * scene.control.largest_displacement});
-  ImplicitControl control = scene.control;
+  ImplicitControl control = scene.implicit;
   control.largest_displacement *= coarsening;
   control.contact_precision *= coarsening;
   return std::make_unique<Implicit>(model, state, control);
 }
-
-}  // namespace
 
 DryingRun::DryingRun(const DryingScene& scene, double coarsening, Begin begin)
     : scene_(scene),
@@ -83,13 +86,14 @@ int DryingRun::frames_passed() const {
 double DryingRun::latest_time() const {
   const Front& front = integrator_->front();
   const auto next = static_cast<std::size_t>(frames_passed());
-  if (scene_.model.thermal_energy > 0 || scene_.inertial || next == scene_.frames.size()) return front.end();
+  const bool free = scene_.is(IntegratorKind::implicit) || scene_.is(IntegratorKind::stabilised);
+  if (!free || next == scene_.frames.size()) return front.end();
   return std::min(front.end(), front.time_at((1 - scene_.frames[next]) * scene_.model.droplet.initial_radius));
 }
 
 void DryingRun::step() {
   integrator_->step(latest_time());
-  if (scene_.diffuses() && stage_ + 1 < stages_.size() && outgrows_stage()) enter_next_stage();
+  if (stage_ + 1 < stages_.size() && outgrows_stage()) enter_next_stage();
 }
 
 bool DryingRun::outgrows_stage() const {

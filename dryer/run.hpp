@@ -10,6 +10,10 @@
 
 namespace crumble {
 
+// The scene's integrator for a state. coarsening: factor on its step control; depth: of Brownian steps.
+std::unique_ptr<Integrator> make_integrator(const DryingScene& scene, const DryingModel& model, double coarsening,
+                                            int depth, Agglomerate& state);
+
 class DryingRun {
  public:
   // coarsening: factor on the step control; 1 for the run itself, 2 for the companion that measures its error.

@@ -34,16 +34,22 @@ std::vector<double> frames(const Scene& scene) {
   return fraction;
 }
 
-// The rule at D = 0: stabilised steps wherever they know the contact law.
-bool is_stabilised(const Scene& scene, const DryingScene& s) {
+// Decided here, once. Overdamped at D = 0: stabilised steps wherever they know the contact law.
+IntegratorKind integrator_kind(const Scene& scene, const DryingModel& model) {
   const std::string method = scene.choice("integrator.method");
-  const bool by_name = method == "stabilised" || method == "implicit";
-  if (by_name && s.model.thermal_energy > 0)
-    throw scene.error("integrator.method", "knows no Brownian motion; set \"overdamped\" or \"inertial\"");
-  if (method == "stabilised" && s.model.contact.normal != NormalLaw::jkr)
+  const bool noise = model.thermal_energy > 0, jkr = model.contact.normal == NormalLaw::jkr;
+  if (method == "inertial") return IntegratorKind::inertial;
+  if (method == "overdamped" && noise) {
+    if (!jkr)
+      throw scene.error("contact.law",
+                        "with particle.brownian_motion the overdamped integrator knows jkr only; set "
+                        "integrator.method = \"inertial\"");
+    return IntegratorKind::brownian;
+  }
+  if (noise) throw scene.error("integrator.method", "knows no Brownian motion; set \"overdamped\" or \"inertial\"");
+  if (method == "stabilised" && !jkr)
     throw scene.error("integrator.method", "knows the contact law jkr only; set \"implicit\"");
-  if (by_name) return method == "stabilised";
-  return method == "overdamped" && s.model.thermal_energy == 0 && s.model.contact.normal == NormalLaw::jkr;
+  return method == "implicit" || !jkr ? IntegratorKind::implicit : IntegratorKind::stabilised;
 }
 
 }  // namespace
@@ -70,9 +76,9 @@ DryingScene drying_scene(const Scene& scene) {
   c.rolling_limit_factor = scene.real("contact.rolling_limit_factor");
   c.rolling_stiffness_factor = scene.real("contact.rolling_stiffness_factor");
   s.seed = static_cast<std::uint64_t>(scene.integer("run.seed"));
-  s.inertial = scene.choice("integrator.method") == "inertial";
-  s.stabilised = is_stabilised(scene, s);
-  s.control = {scene.real("integrator.largest_displacement"), scene.real("integrator.contact_precision")};
+  s.integrator = integrator_kind(scene, s.model);
+  s.implicit = {scene.real("integrator.largest_displacement"), scene.real("integrator.contact_precision")};
+  s.stabilised.largest_displacement = scene.real("integrator.largest_displacement");
   s.brownian.contact_step = scene.real("integrator.contact_step");
   s.softening = scene.real("integrator.softening");
   s.model.crust_diffusivity = scene.real("crust.relative_diffusivity");
@@ -80,12 +86,8 @@ DryingScene drying_scene(const Scene& scene) {
   s.frames = frames(scene);
   // With noise the paths of two step lengths part; the error is one of means over many seeds.
   s.estimate_error = scene.flag("error.estimate") && s.model.thermal_energy == 0;
-  if (s.model.thermal_energy > 0 && !s.inertial && s.model.contact.normal != NormalLaw::jkr)
-    throw scene.error("contact.law",
-                      "with particle.brownian_motion the overdamped integrator knows jkr only; set integrator.method = "
-                      "\"inertial\"");
 
-  if (s.inertial) {
+  if (s.is(IntegratorKind::inertial)) {
     const double a = s.smallest_radius();
     const Particles one{{a}, {4.0 / 3.0 * std::numbers::pi * a * a * a * s.model.material.density}, {0}, {0}};
     const double recommended = Inertial::recommended_step(s.model, one);

@@ -13,6 +13,9 @@ namespace crumble {
 
 const ParameterTable& drying_parameters();
 
+// Which of the integrators runs: inertial.hpp, implicit.hpp, stabilised.hpp, brownian.hpp.
+enum class IntegratorKind { inertial, implicit, stabilised, brownian };
+
 struct DryingScene {
   double nominal_radius = 0;   // a of the scene: of Pe, D; equal to all of the following unless they are distributed, m
   std::vector<double> radius;  // one a particle, descending, m
@@ -20,10 +23,10 @@ struct DryingScene {
   double contact_angle = 0;    // theta, rad
   DryingModel model;
   std::uint64_t seed = 1;
-  bool inertial = false;
-  bool stabilised = false;  // explicit stabilised steps where there is no Brownian motion, else implicit ones
-  double step = 0;          // inertial only, s
-  ImplicitControl control;
+  IntegratorKind integrator = IntegratorKind::stabilised;
+  double step = 0;  // inertial, s
+  ImplicitControl implicit;
+  StabilisedControl stabilised;
   BrownianControl brownian;
   double softening = 1;        // of the contacts while particles diffuse
   std::vector<double> frames;  // fractions 1 - R/R0 at which one is due, in order, besides the start and the end
@@ -31,7 +34,7 @@ struct DryingScene {
 
   double smallest_radius() const { return radius.back(); }
   double largest_radius() const { return radius.front(); }
-  bool diffuses() const { return model.thermal_energy > 0 && !inertial; }
+  bool is(IntegratorKind kind) const { return integrator == kind; }
 };
 
 // Throws InputError naming file, line and keys where values contradict each other.

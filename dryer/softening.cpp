@@ -31,7 +31,7 @@ bool can_be_softened(const DryingScene& scene, double factor) {
 std::vector<SofteningStage> softening_stages(const DryingScene& scene) {
   const int depth = scene.brownian.depth;
   const SofteningStage packed{scene.softening, depth};
-  if (!scene.diffuses() || scene.softening == 1 || !bonds_are_brief(scene)) return {packed};
+  if (!scene.is(IntegratorKind::brownian) || scene.softening == 1 || !bonds_are_brief(scene)) return {packed};
   std::vector<SofteningStage> stages;
   for (const SofteningStage& stage : {SofteningStage{4, 5, 0.3}, SofteningStage{2.5, 5, 1}})
     if (stage.softening > scene.softening && can_be_softened(scene, stage.softening)) stages.push_back(stage);
@@ -42,7 +42,7 @@ std::vector<SofteningStage> softening_stages(const DryingScene& scene) {
 
 DryingModel softened_model(const DryingScene& scene, double softening) {
   DryingModel model = scene.model;
-  if (scene.diffuses())
+  if (scene.is(IntegratorKind::brownian))
     model.material = softened(model.material, scene.smallest_radius(), model.thermal_energy, softening);
   return model;
 }

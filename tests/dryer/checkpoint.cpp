@@ -67,9 +67,9 @@ TEST_P(Restart, continues_to_the_same_bits_from_any_step) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Integrators, Restart,
-                         ::testing::Values("overdamped", "stabilised", "inertial", "overdamped_with_noise",
-                                           "inertial_with_noise", "overdamped_behind_a_crust",
-                                           "inertial_behind_a_crust"));
+                         ::testing::Values("implicit", "stabilised", "inertial", "overdamped_with_noise",
+                                           "inertial_with_noise", "implicit_behind_a_crust",
+                                           "stabilised_behind_a_crust", "inertial_behind_a_crust"));
 
 TEST(Checkpoint, that_lacks_a_field_or_has_one_too_many_is_refused_by_its_name) {
   const Folder folder;

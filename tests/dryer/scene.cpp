@@ -115,7 +115,7 @@ TEST(DryingScene, defaults_are_table_1_and_the_paper_s_equations) {
   EXPECT_EQ(s.model.material.surface_energy, 4.8e-3);
   EXPECT_EQ(s.model.droplet.surface_tension, 1.75e-4);
   EXPECT_EQ(s.model.contact.rolling_limit_factor, 1);
-  EXPECT_FALSE(s.inertial);
+  EXPECT_TRUE(s.is(IntegratorKind::stabilised));
 }
 
 TEST(DryingScene, frames_at_given_theta_come_in_between_the_even_ones) {
