@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -32,6 +33,10 @@ void save_checkpoint(const std::filesystem::path& path, const CheckpointOwner& o
 // Throws InputError saying which of program, version and scene differs and what to do, ContentError if the file is not
 // a checkpoint.
 Checkpoint load_checkpoint(const std::filesystem::path& path, const CheckpointOwner& owner);
+
+// For the catch around a run: `keep` puts its state on the disk, then what ended the run goes on. If it was a signal
+// and the state cannot be kept, the message says so.
+[[noreturn]] void keep_and_rethrow(const std::function<void()>& keep);
 
 // OUTPUT.checkpoint beside the unfinished OUTPUT.tmp: what the checkpoints of all programs share.
 class OutputCheckpoint {
