@@ -13,6 +13,7 @@
 #include "common/io/command_line.hpp"
 #include "common/io/errors.hpp"
 #include "common/io/interrupt.hpp"
+#include "common/io/output_lock.hpp"
 #include "common/io/program.hpp"
 
 using namespace crumble;
@@ -75,10 +76,11 @@ void run_to_the_end(BreakupRun& run, const BreakerScene& scene, AgglomerateWrite
     if (companion && !p.companion) p.companion = companion->critical_stress();
   } catch (const std::exception& error) {
     if (companion && companion->done()) p.companion = companion->critical_stress();
-    checkpoint.save(run, p);
-    writer.suspend();
-    progress.say(fmt::format("the state is kept in {}; the same command goes on from there", checkpoint.path()));
-    throw;
+    keep_and_rethrow([&] {
+      writer.suspend();
+      checkpoint.save(run, p);
+      progress.say(fmt::format("the state is kept in {}; the same command goes on from there", checkpoint.path()));
+    });
   }
 }
 
@@ -125,14 +127,14 @@ bool break_once(const Job& job, Progression& p, bool goes_on, bool beside) {
   writer.finish(run.breakup().severed ? "broken" : "relaxed");
   job.checkpoint.remove();
   fill_report(job.report, scene, job.start, run, p.companion);
-  fmt::print("{}", result_text(run, scene, p.companion));
+  deliver(result_text(run, scene, p.companion), [&] { job.report.write(job.line.report); });
   return true;
 }
 
 int break_up(int argc, const char* const* argv) {
   const CommandLine line = parse_command_line(description(), argc, argv);
   if (line.answer) {
-    fmt::print("{}", *line.answer);
+    deliver(*line.answer);
     return 0;
   }
   const Scene text = Scene::read(line.scene, breaker_parameters(), line.overrides);
@@ -151,6 +153,7 @@ int break_up(int argc, const char* const* argv) {
     return 0;
   }
 
+  const OwnedOutputs owned(line.written, {});
   BreakupCheckpoint checkpoint(line.output,
                                {"breaker", provenance.version, text.resolved() + "\n# of " + provenance.parent_sha256});
   if (line.restart) checkpoint.require();
@@ -160,7 +163,6 @@ int break_up(int argc, const char* const* argv) {
   const Job job{line, text, scene, start, provenance, checkpoint, progress, report};
   bool goes_on = checkpoint.found();
   while (!break_once(job, p, goes_on, threads > 1)) goes_on = false;
-  if (!line.report.empty()) report.write(line.report);
   return 0;
 }
 

@@ -3,11 +3,11 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
-#include <filesystem>
-#include <fstream>
 
 #include "common/io/errors.hpp"
 #include "common/io/number_list.hpp"
+#include "common/io/output_lock.hpp"
+#include "common/io/program.hpp"
 #include "common/io/provenance.hpp"
 #include "common/io/report.hpp"
 #include "dryer/continuum.hpp"
@@ -41,12 +41,14 @@ double number(const std::string& option, const std::string& text) {
   return one.front();
 }
 
-void check_file(const std::string& option, const std::string& file) {
-  const auto folder = std::filesystem::path(file).parent_path();
-  std::error_code ignored;
-  if (!folder.empty() && !std::filesystem::is_directory(folder, ignored))
-    throw misuse(fmt::format("{} {}: there is no folder '{}'", option, file, folder.string()));
-  if (std::filesystem::is_directory(file, ignored)) throw misuse(fmt::format("{} {}: this is a folder", option, file));
+OwnedOutputs own_outputs(const Raw& raw) {
+  std::vector<WrittenFile> written{{.what = "-o", .name = raw.output, .is_text = true}};
+  if (!raw.report.empty()) written.push_back({.what = "--report", .name = raw.report, .is_text = true});
+  try {
+    return {written, {}};
+  } catch (const InputError& error) {
+    throw misuse(error.what());
+  }
 }
 
 std::string csv(const std::vector<ContinuumProfile>& profiles) {
@@ -55,21 +57,6 @@ std::string csv(const std::vector<ContinuumProfile>& profiles) {
     for (std::size_t row = 0; row < p.rho.size(); ++row)
       text += fmt::format("{:g},{:.12g},{:.12g}\n", p.theta, p.rho[row], p.gamma[row]);
   return text;
-}
-
-// Under a temporary name first, then renamed: a half-written file never looks finished.
-void write(const std::string& file, const std::string& text) {
-  const std::string temporary = file + ".tmp";
-  {
-    std::ofstream out(temporary, std::ios::binary);
-    out << text;
-    out.flush();
-    if (!out) {
-      std::remove(temporary.c_str());
-      throw std::runtime_error("cannot write " + file);
-    }
-  }
-  std::filesystem::rename(temporary, file);
 }
 
 std::string table(const std::vector<ContinuumProfile>& profiles) {
@@ -114,7 +101,7 @@ int continuum_command(int argc, const char* const* argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
-    fmt::print("{}", app.help());
+    deliver(app.help());
     return 0;
   } catch (const CLI::ParseError& error) {
     throw misuse(error.what());
@@ -123,15 +110,12 @@ int continuum_command(int argc, const char* const* argv) {
     throw misuse("--peclet, --theta and -o are all needed");
   const double peclet = number("--peclet", raw.peclet);
   const std::vector<double> theta = numbers("--theta", raw.theta);
-  check_file("-o", raw.output);
-  if (!raw.report.empty()) check_file("--report", raw.report);
-  if (raw.report == raw.output) throw misuse("-o and --report name the same file");
+  const OwnedOutputs owned = own_outputs(raw);
   Report report("dryer continuum", make_provenance("dryer", {argv, argv + argc}, 0, "none").version, "", {});
   try {
     const auto profiles = continuum_profiles(peclet, theta);
-    write(raw.output, csv(profiles));
-    if (!raw.report.empty()) write_report(raw.report, report, peclet, profiles);
-    fmt::print("{}", table(profiles));
+    write_text_file(raw.output, csv(profiles));
+    deliver(table(profiles), [&] { write_report(raw.report, report, peclet, profiles); });
   } catch (const std::domain_error& error) {
     throw misuse(error.what());
   }

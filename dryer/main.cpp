@@ -8,6 +8,7 @@
 
 #include "common/io/command_line.hpp"
 #include "common/io/interrupt.hpp"
+#include "common/io/output_lock.hpp"
 #include "common/io/program.hpp"
 #include "common/io/provenance.hpp"
 #include "common/numerics/noise.hpp"
@@ -81,17 +82,18 @@ void run_to_the_end(DryingRun& run, AgglomerateWriter& writer, const DryingCheck
         throw Interrupted(interrupt_signal(), fmt::format("stopped at t = {:g} s", run.state().state.time));
     }
   } catch (const std::exception& error) {
-    checkpoint.save(run, done);
-    writer.suspend();
-    progress.say(fmt::format("the state is kept in {}; the same command goes on from there", checkpoint.path()));
-    throw;
+    keep_and_rethrow([&] {
+      writer.suspend();
+      checkpoint.save(run, done);
+      progress.say(fmt::format("the state is kept in {}; the same command goes on from there", checkpoint.path()));
+    });
   }
 }
 
 int dry(int argc, const char* const* argv) {
   const CommandLine line = parse_command_line(description(), argc, argv);
   if (line.answer) {
-    fmt::print("{}", *line.answer);
+    deliver(*line.answer);
     return 0;
   }
   if (line.threads > 0) omp_set_num_threads(line.threads);
@@ -108,6 +110,7 @@ int dry(int argc, const char* const* argv) {
     return 0;
   }
 
+  const OwnedOutputs owned(line.written, {});
   DryingCheckpoint checkpoint(line.output, {"dryer", provenance.version, text.resolved()});
   if (line.restart) checkpoint.require();
   if (checkpoint.found()) progress.say("resuming from " + checkpoint.path());
@@ -124,8 +127,7 @@ int dry(int argc, const char* const* argv) {
   checkpoint.remove();
   report.add_earlier(checkpoint.used());
   fill_report(report, scene, run, result, done.companion);
-  if (!line.report.empty()) report.write(line.report);
-  fmt::print("{}", result_text(result, done.companion));
+  deliver(result_text(result, done.companion), [&] { report.write(line.report); });
   return 0;
 }
 

@@ -6,6 +6,7 @@
 
 #include "common/io/agglomerate_reader.hpp"
 #include "common/io/command_line.hpp"
+#include "common/io/output_lock.hpp"
 #include "common/io/program.hpp"
 #include "common/io/provenance.hpp"
 #include "common/numerics/noise.hpp"
@@ -33,13 +34,15 @@ ProgramDescription description() {
 int load(int argc, const char* const* argv) {
   const CommandLine line = parse_command_line(description(), argc, argv);
   if (line.answer) {
-    fmt::print("{}", *line.answer);
+    deliver(*line.answer);
     return 0;
   }
   const Scene text = Scene::read(line.scene, stress_parameters(), line.overrides);
   const StressScene scene = stress_scene(text);
   const std::string input = line.inputs.front();
   if (line.threads > 0) omp_set_num_threads(line.threads);
+  std::optional<OwnedOutputs> owned;
+  if (!line.check) owned.emplace(line.written, history_files(text));
   const Provenance provenance = make_provenance("rigidstress", {argv, argv + argc}, scene.seed, rng_name, input);
   Report report("rigidstress", provenance.version, line.scene, static_cast<std::int64_t>(scene.seed));
   ProgressPrinter progress(stderr, std::filesystem::path(input).stem().string(), line.quiet);
@@ -62,8 +65,7 @@ int load(int argc, const char* const* argv) {
   write_stress(writer, *analysis, scene);
   writer.finish("relaxed");
   fill_report(report, *analysis, scene);
-  if (!line.report.empty()) report.write(line.report);
-  fmt::print("{}", result_text(*analysis, scene));
+  deliver(result_text(*analysis, scene), [&] { report.write(line.report); });
   return 0;
 }
 

@@ -121,6 +121,12 @@ std::vector<Quaternion> starts(const Scene& scene, std::uint64_t seed) {
 
 }  // namespace
 
+std::vector<ReadFile> history_files(const Scene& scene) {
+  if (!scene.is_set("flow.history")) return {};
+  const auto file = std::filesystem::path(scene.file()).parent_path() / scene.text("flow.history");
+  return {{"the history", file.string()}};
+}
+
 StressScene stress_scene(const Scene& scene) {
   StressScene s;
   if (scene.is_set("particle.radius")) s.radius = scene.real("particle.radius");
@@ -154,8 +160,7 @@ StressScene stress_scene(const Scene& scene) {
   s.orbit.tolerance = scene.real("flow.orientation_tolerance");
   if (s.orbit.sample > s.orbit.strain) throw scene.error("flow.sample", "is longer than flow.strain");
   if (scene.is_set("flow.history")) {
-    const auto file = std::filesystem::path(scene.file()).parent_path() / scene.text("flow.history");
-    s.history = GradientHistory::read(file.string(), scene.real("flow.largest_history_step"));
+    s.history = GradientHistory::read(history_files(scene).front().name, scene.real("flow.largest_history_step"));
   }
   return s;
 }

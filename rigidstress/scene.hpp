@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "common/io/output_file.hpp"
 #include "common/io/parameters.hpp"
 #include "rigidstress/flows.hpp"
 #include "rigidstress/history.hpp"
@@ -30,6 +31,9 @@ struct StressScene {
 
 // Reads the history file, if there is one, named as seen from the scene's folder.
 StressScene stress_scene(const Scene& scene);
+
+// The files that the scene itself names.
+std::vector<ReadFile> history_files(const Scene& scene);
 
 // Two resolved scenes with the same answer here have the same response of the same file: particle, material,
 // structure and hydrodynamics.

@@ -12,6 +12,8 @@
 
 #include "common/agglomerate/fragments.hpp"
 #include "common/agglomerate/morphology.hpp"
+#include "common/io/checker.hpp"
+#include "common/io/output_file.hpp"
 #include "common/io/schema.hpp"
 
 namespace crumble {
@@ -77,6 +79,7 @@ AgglomerateWriter::AgglomerateWriter(std::filesystem::path path, const Particles
   if (particles.size() == 0 || particles.mass.size() != particles.size())
     mistake("/particles/all", "needs a radius and a mass for each particle");
   file_ = hdf5::File::create(temporary());
+  identity_ = file_identity(temporary());
   try {
     write_head(particles, description);
   } catch (...) {
@@ -86,11 +89,15 @@ AgglomerateWriter::AgglomerateWriter(std::filesystem::path path, const Particles
   }
 }
 
+AgglomerateWriter::AgglomerateWriter(std::filesystem::path path, hdf5::File file)
+    : path_(std::move(path)), file_(std::move(file)), identity_(file_identity(temporary())), resumed_(true) {}
+
 AgglomerateWriter::~AgglomerateWriter() {
   if (!open_ || file_.id() < 0) return;
   rows_.clear();
   series_.clear();
   file_ = {};
+  if (resumed_) return;  // the checkpoint is worth nothing without it
   std::error_code ignored;
   std::filesystem::remove(temporary(), ignored);
 }
@@ -415,11 +422,19 @@ void AgglomerateWriter::finish(const std::string& state) {
   module = {};
   pairs = {};
   suspend();
-  std::error_code problem;
-  std::filesystem::rename(temporary(), path_, problem);
-  if (problem)
-    throw WriteError(
-        fmt::format("{}: cannot be renamed from {}: {}", path_.string(), temporary().string(), problem.message()));
+  require_complete();
+  publish(temporary(), path_);
+}
+
+// The file that gets the name is the one that was written, and it can be read.
+void AgglomerateWriter::require_complete() const {
+  const auto refuse = [&](const std::string& what) {
+    throw WriteError(fmt::format("{}: is not given its name: {}", path_.string(), what));
+  };
+  if (identity_ != file_identity(temporary())) refuse(temporary().string() + " is not the file that was written");
+  for (const Violation& violation : check_file(temporary()))
+    if (violation.path != "/parameters/provenance@parent_sha256")  // an input that changed since is not our mistake
+      refuse(fmt::format("what is in {} is not valid: {}", temporary().string(), violation.text()));
 }
 
 template void AgglomerateWriter::put<std::int32_t>(const std::string&, std::span<const std::int32_t>, const Shape&,

@@ -38,7 +38,7 @@ class AgglomerateWriter {
   static AgglomerateWriter resume(std::filesystem::path path, std::int64_t last_step);
 
   AgglomerateWriter(AgglomerateWriter&&) = default;
-  ~AgglomerateWriter();  // removes the temporary file unless finished or suspended
+  ~AgglomerateWriter();  // removes the temporary file unless finished, suspended or resumed
 
   // Steps and times must increase. Every frame has the same fields and the same observables as the first; those of the
   // table that follow from the frame (radius of gyration, fragments and so on) are computed here.
@@ -60,7 +60,7 @@ class AgglomerateWriter {
   void flush();    // what was appended so far is on disk, for a checkpoint
   void suspend();  // keeps PATH.tmp for resume(); nothing can be appended any more
 
-  // State: drying, dry, relaxed or broken.
+  // State: drying, dry, relaxed or broken. What gets the name has been read again and found valid, and is on the disk.
   void finish(const std::string& state);
 
  private:
@@ -72,7 +72,7 @@ class AgglomerateWriter {
     std::vector<std::int64_t> steps;
     std::vector<double> times, values;
   };
-  AgglomerateWriter(std::filesystem::path path, hdf5::File file) : path_(std::move(path)), file_(std::move(file)) {}
+  AgglomerateWriter(std::filesystem::path path, hdf5::File file);
   std::filesystem::path temporary() const { return path_.string() + ".tmp"; }
   void write_head(const Particles& particles, const FileDescription& description);
   void write_provenance(const Provenance& provenance);
@@ -84,10 +84,12 @@ class AgglomerateWriter {
   void append_contacts(const std::vector<Contact>& contacts);
   void append_observables(const Frame& frame, const Observables& observables);
   void write_pending(Series& series);
+  void require_complete() const;
 
   std::filesystem::path path_;
   hdf5::File file_;
-  std::map<std::string, hdf5::Dataset> rows_;  // that grow with the frames, by path without /value
+  std::pair<std::uint64_t, std::uint64_t> identity_;  // of the temporary file
+  std::map<std::string, hdf5::Dataset> rows_;         // that grow with the frames, by path without /value
   std::map<std::string, Series> series_;
   std::vector<double> radius_, mass_;  // SI
   std::vector<std::int32_t> last_pairs_;
@@ -95,7 +97,7 @@ class AgglomerateWriter {
   std::uint64_t frames_ = 0, contacts_ = 0;
   std::int64_t last_step_ = 0;
   double last_time_ = 0;
-  bool open_ = true;
+  bool open_ = true, resumed_ = false;
 };
 
 }  // namespace crumble

@@ -5,6 +5,7 @@
 #include "common/io/errors.hpp"
 #include "common/io/hdf5.hpp"
 #include "common/io/in_child.hpp"
+#include "common/io/output_file.hpp"
 
 namespace crumble {
 
@@ -61,6 +62,15 @@ SavedState read_restart(const std::filesystem::path& path, const CheckpointOwner
 
 void save_checkpoint(const std::filesystem::path& path, const CheckpointOwner& owner, const SavedState& state) {
   const std::filesystem::path temporary = path.string() + ".tmp";
+  // No half of it is left on a full disk.
+  struct Remover {
+    const std::filesystem::path& name;
+    bool armed = true;
+    ~Remover() {
+      std::error_code ignored;
+      if (armed) std::filesystem::remove(name, ignored);
+    }
+  } remover{temporary};
   hdf5::File file = hdf5::File::create(temporary);
   hdf5::Group group = file.create_group("/restart");
   group.set_attribute("program", std::string_view(owner.program));
@@ -69,12 +79,28 @@ void save_checkpoint(const std::filesystem::path& path, const CheckpointOwner& o
   write_arrays(file, state.reals);
   write_arrays(file, state.integers);
   file.close();
-  std::filesystem::rename(temporary, path);
+  publish(temporary, path);
+  remover.armed = false;
 }
 
 SavedState load_checkpoint(const std::filesystem::path& path, const CheckpointOwner& owner) {
   in_child(path, [&] { return read_restart(path, owner), std::string(); });
   return read_restart(path, owner);
+}
+
+void keep_and_rethrow(const std::function<void()>& keep) {
+  std::string problem;
+  try {
+    keep();
+  } catch (const std::exception& error) {
+    problem = error.what();
+  }
+  if (problem.empty()) throw;
+  try {
+    throw;
+  } catch (const Interrupted& stop) {
+    throw Interrupted(stop.signal, fmt::format("{}; the state cannot be kept: {}", stop.what(), problem));
+  }
 }
 
 OutputCheckpoint::OutputCheckpoint(const std::string& output, CheckpointOwner owner)

@@ -23,6 +23,10 @@ void save_checkpoint(const std::filesystem::path& path, const CheckpointOwner& o
 // a checkpoint.
 SavedState load_checkpoint(const std::filesystem::path& path, const CheckpointOwner& owner);
 
+// For the catch around a run: `keep` puts its state on the disk, then what ended the run goes on. If it was a signal
+// and the state cannot be kept, the message says so.
+[[noreturn]] void keep_and_rethrow(const std::function<void()>& keep);
+
 // OUTPUT.checkpoint beside the unfinished OUTPUT.tmp: what the checkpoints of all programs share.
 class OutputCheckpoint {
  public:

@@ -4,7 +4,6 @@
 
 #include <CLI/CLI.hpp>
 #include <charconv>
-#include <filesystem>
 
 namespace crumble {
 namespace {
@@ -101,19 +100,19 @@ std::int64_t whole_number(const ProgramDescription& program, const std::string& 
   return value;
 }
 
-void check_output(const ProgramDescription& program, const CommandLine& command, const std::string& option,
-                  const std::string& file) {
-  namespace fs = std::filesystem;
-  std::error_code ignored;
-  const fs::path folder = fs::path(file).parent_path();
-  if (!folder.empty() && !fs::is_directory(folder, ignored))
-    throw misuse(program, fmt::format("{} {}: there is no folder '{}'", option, file, folder.string()));
-  if (fs::is_directory(file, ignored)) throw misuse(program, fmt::format("{} {}: this is a folder", option, file));
-  std::vector<std::string> others = command.inputs;
-  others.push_back(command.scene);
-  for (const auto& other : others)
-    if (fs::equivalent(file, other, ignored))
-      throw misuse(program, fmt::format("{} {}: would overwrite the input '{}'", option, file, other));
+void check_outputs(const ProgramDescription& program, CommandLine& command) {
+  std::vector<ReadFile> read;
+  for (const auto& input : command.inputs) read.push_back({"the input", input});
+  read.push_back({"the input", command.scene});
+  if (!command.output.empty())
+    command.written.push_back({.what = "-o", .name = command.output, .has_checkpoint = program.keeps_checkpoint});
+  if (!command.report.empty()) command.written.push_back({.what = "--report", .name = command.report, .is_text = true});
+  try {
+    require_separate(command.written, read);
+  } catch (const InputError& error) {
+    throw misuse(program, error.what());
+  }
+  if (!command.output.empty()) command.output = followed(command.output).string();
 }
 
 void take_files(const ProgramDescription& program, const Raw& raw, CommandLine& command) {
@@ -127,10 +126,7 @@ void take_files(const ProgramDescription& program, const Raw& raw, CommandLine& 
   command.output = raw.output;
   command.report = raw.report;
   if (command.output.empty() && !raw.check) throw misuse(program, "-o FILE.h5 is missing");
-  if (!command.output.empty()) check_output(program, command, "-o", command.output);
-  if (!command.report.empty()) check_output(program, command, "--report", command.report);
-  if (!command.report.empty() && command.report == command.output)
-    throw misuse(program, "-o and --report name the same file");
+  check_outputs(program, command);
 }
 
 CommandLine interpret(const ProgramDescription& program, const Raw& raw) {

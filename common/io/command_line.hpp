@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "common/io/output_file.hpp"
 #include "common/io/parameters.hpp"
 
 namespace crumble {
@@ -26,10 +27,11 @@ struct ProgramDescription {
 struct CommandLine {
   std::string scene;
   std::vector<std::string> inputs;
-  std::string output;               // empty only with --check
-  std::vector<Override> overrides;  // --set in the order given, then --seed
-  std::string report;               // empty: none wanted
-  int threads = 0;                  // 0: as many as OpenMP takes by itself
+  std::string output;                // empty only with --check; links are followed
+  std::vector<Override> overrides;   // --set in the order given, then --seed
+  std::string report;                // empty: none wanted
+  std::vector<WrittenFile> written;  // both, as they were typed, for OwnedOutputs
+  int threads = 0;                   // 0: as many as OpenMP takes by itself
   bool check = false, quiet = false;
   bool restart = false;  // a checkpoint must be there
 
@@ -37,8 +39,8 @@ struct CommandLine {
   std::optional<std::string> answer;
 };
 
-// Throws InputError on everything that cannot be meant, also on an output folder that is not there and on an output
-// that would overwrite an input.
+// Throws InputError on everything that cannot be meant, also on an output that cannot be written where it should be or
+// would overwrite an input.
 CommandLine parse_command_line(const ProgramDescription& program, int argc, const char* const* argv);
 
 // The manual's page of all parameters, in Markdown. A test of each program compares it with the page in the tree.

@@ -33,6 +33,22 @@ Handle text_type() {
   return type;
 }
 
+namespace {
+
+// Where a write has failed, the library cannot close the file, and would at the end of the program touch what it has
+// freed (HDF5 1.10.8: H5F__close_cb). We close all that we open, so that nothing is left to be done then.
+[[maybe_unused]] const herr_t no_cleanup_at_exit = H5dont_atexit();
+
+// "file write failed: time = ..., errno = 28, error message = 'No space left on device', buf = ..." -> what matters.
+std::string system_error_in(const std::string& text) {
+  constexpr std::string_view mark = "error message = '";
+  const auto begin = text.find(mark);
+  if (begin == text.npos) return "";
+  return text.substr(begin + mark.size(), text.find('\'', begin + mark.size()) - begin - mark.size());
+}
+
+}  // namespace
+
 std::string reason() {
   std::string text;
   H5Ewalk2(
@@ -43,7 +59,9 @@ std::string reason() {
       },
       &text);
   H5Eclear2(H5E_DEFAULT);
-  return text.empty() ? "" : " (HDF5: " + text + ")";
+  if (text.empty()) return "";
+  const std::string system = system_error_in(text);
+  return system.empty() ? " (HDF5: " + text + ")" : ": " + system;
 }
 
 void silence() {

@@ -1,12 +1,19 @@
 #include "common/io/program.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <pthread.h>
 #include <sys/ioctl.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
 #include <new>
 
 #include "common/io/errors.hpp"
@@ -32,12 +39,38 @@ std::string cut_to_width(std::string line, std::FILE* terminal) {
 // every minute in the end, so that neither a short run is silent nor a long one fills the disk.
 double interval(bool live, double elapsed) { return live ? 0.5 : std::clamp(elapsed / 10, 2.0, 60.0); }
 
+// A program may be started with these closed, as daemons are. The first file that it opens would get such a number, and
+// messages would go into it.
+void open_standard_streams() {
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (::fcntl(descriptor, F_GETFD) < 0 && ::open("/dev/null", O_RDWR) != descriptor) std::abort();
+}
+
+// Raised to what our deepest calls need with room to spare, if the hard limit allows: beyond its end a program crashes.
+void require_stack() {
+  constexpr rlim_t needed = 2 << 20;  // bytes
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY || limit.rlim_cur >= needed) return;
+  limit.rlim_cur = std::min<rlim_t>(needed, limit.rlim_max);
+  if (limit.rlim_cur < needed || ::setrlimit(RLIMIT_STACK, &limit) != 0)
+    throw InputError(fmt::format("the stack is limited to {} kB, {} kB are needed (ulimit -s {})", limit.rlim_max >> 10,
+                                 needed >> 10, needed >> 10));
+  pthread_attr_t threads;
+  ::pthread_attr_init(&threads);
+  ::pthread_attr_setstacksize(&threads, needed);
+  ::pthread_setattr_default_np(&threads);  // of threads that do not say how much they want
+  ::pthread_attr_destroy(&threads);
+}
+
 }  // namespace
 
 int run_program(const std::string& name, const std::function<int()>& body) {
+  open_standard_streams();
   std::signal(SIGPIPE, SIG_IGN);  // a reader of our messages that goes away must not end the run
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is then an error of the write, as a full disk is
   watch_for_interrupts();
   try {
+    require_stack();
     return body();
   } catch (const Interrupted& stop) {
     return fail(128 + stop.signal, name + ": " + stop.what());
@@ -52,6 +85,19 @@ int run_program(const std::string& name, const std::function<int()>& body) {
   } catch (const std::exception& error) {
     return fail(1, name + ": " + error.what());
   }
+}
+
+void deliver(const std::string& answer, const std::function<void()>& write_report) {
+  std::exception_ptr problem;
+  try {
+    write_report();
+  } catch (const std::exception&) {
+    problem = std::current_exception();
+  }
+  const bool printed = std::fwrite(answer.data(), 1, answer.size(), stdout) == answer.size();
+  if (std::fflush(stdout) != 0 || !printed)
+    throw std::runtime_error(fmt::format("the result cannot be printed to stdout: {}", std::strerror(errno)));
+  if (problem) std::rethrow_exception(problem);
 }
 
 ProgressPrinter::ProgressPrinter(std::FILE* out, std::string label, bool quiet)

@@ -11,8 +11,13 @@
 namespace crumble {
 
 // Runs the body of a main with the one catch: a failure is printed to stderr as one message, and becomes the exit code
-// (0 done, 1 failed, 2 input, 3 file format, 128 + signal). Also starts watching for SIGINT and SIGTERM.
+// (0 done, 1 failed, 2 input, 3 file format, 128 + signal). Also starts watching for SIGINT and SIGTERM, and makes
+// closed streams, limits on files and small stacks harmless.
 int run_program(const std::string& name, const std::function<int()>& body);
+
+// The end of a run whose file is written: its report, and its answer on stdout. Each is given although the other fails.
+void deliver(
+    const std::string& answer, const std::function<void()>& write_report = [] {});
 
 // One line per report interval, on a terminal one live line instead; nothing when quiet.
 class ProgressPrinter {

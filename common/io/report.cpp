@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdio>
-#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+
+#include "common/io/output_file.hpp"
 
 namespace crumble {
 namespace {
@@ -79,18 +79,7 @@ std::string Report::json() const {
 }
 
 void Report::write(const std::string& file) const {
-  const std::string temporary = file + ".tmp";
-  const std::string text = json();
-  {
-    std::ofstream out(temporary, std::ios::binary);
-    out << text;
-    out.flush();
-    if (!out) {
-      std::remove(temporary.c_str());
-      throw std::runtime_error("cannot write the report " + file);
-    }
-  }
-  std::filesystem::rename(temporary, file);
+  if (!file.empty()) write_text_file(file, json());
 }
 
 }  // namespace crumble

@@ -36,7 +36,7 @@ class Report {
   void error(const std::string& name, std::optional<double> value, const std::string& how);
 
   std::string json() const;
-  // Under a temporary name first, then renamed: a half-written report never looks finished.
+  // A half-written report never looks finished. No name: none is wanted.
   void write(const std::string& file) const;
 
  private:

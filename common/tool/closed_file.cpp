@@ -37,6 +37,10 @@ void write_morphology(AgglomerateWriter& writer, const Particles& particles, con
 
 }  // namespace
 
+OwnedOutputs own_output(const std::string& output, const std::string& input) {
+  return {{{.what = "agglomerate: -o", .name = output}}, {{"the input", input}}};
+}
+
 void tell(std::ostream& out, const Particles& particles, const Closed& closed) {
   const std::vector<Contact>& contacts = closed.frame.contacts;
   out << fmt::format("  contacts: {}, coordination {:.3f}; largest move in closing them {:.3g} nm\n", contacts.size(),
@@ -62,7 +66,7 @@ void write_closed(const std::string& file, const Particles& particles, const Clo
   description.stage = "agglomerate";
   description.provenance = provenance;
   description.resolved = settings;
-  AgglomerateWriter writer(file, particles, description);
+  AgglomerateWriter writer(followed(file), particles, description);
   writer.append(closed.frame);
   double squares = 0, largest = 0;
   for (const Contact& c : closed.frame.contacts) {

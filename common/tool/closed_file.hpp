@@ -6,9 +6,13 @@
 #include <string>
 
 #include "common/agglomerate/closing.hpp"
+#include "common/io/output_lock.hpp"
 #include "common/io/provenance.hpp"
 
 namespace crumble::tool {
+
+// Throws InputError if the output cannot be written, is the input or is being written by another.
+OwnedOutputs own_output(const std::string& output, const std::string& input);
 
 // Self-stress that remains, contacts that were lost and strangers that overlap, in words.
 void tell(std::ostream& out, const Particles& particles, const Closed& closed);

@@ -2,11 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <numeric>
-#include <system_error>
 
-#include "common/io/file_errors.hpp"
+#include "common/io/errors.hpp"
 
 namespace crumble::tool {
 
@@ -22,24 +20,6 @@ std::vector<std::size_t> chosen_frames(const FrameChoice& choice, std::size_t fr
                                  frame_count - 1));
   }
   return {choice.number};
-}
-
-TextFile::TextFile(std::string name) : name_(std::move(name)), temporary_(name_ + ".tmp"), stream_(temporary_) {
-  if (!stream_) throw OpenError("agglomerate: " + name_ + ": cannot be created");
-}
-
-TextFile::~TextFile() {
-  if (finished_) return;
-  stream_.close();
-  std::error_code ignored;
-  std::filesystem::remove(temporary_, ignored);
-}
-
-void TextFile::finish() {
-  stream_.close();
-  if (!stream_) throw WriteError(name_ + ": could not be written completely (disk full?)");
-  std::filesystem::rename(temporary_, name_);
-  finished_ = true;
 }
 
 }  // namespace crumble::tool

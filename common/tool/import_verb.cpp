@@ -21,6 +21,7 @@ std::string settings(const ImportOptions& how) {
 }  // namespace
 
 int import_file(const ImportFileOptions& options, const Typed& typed, std::ostream& out) {
+  const OwnedOutputs owned = own_output(options.output, options.input);
   Imported result;
   std::size_t frames = 1;
   try {

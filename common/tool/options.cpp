@@ -4,7 +4,6 @@
 
 #include <CLI/CLI.hpp>
 #include <charconv>
-#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
@@ -71,17 +70,6 @@ double unit_named(const std::string& text) {
   const auto found = units.find(text);
   if (found == units.end()) throw misuse("import", "--unit " + text + ": must be nm, um or m");
   return found->second;
-}
-
-void check_output(const std::string& verb, const std::string& input, const std::string& output) {
-  namespace fs = std::filesystem;
-  std::error_code ignored;
-  const fs::path folder = fs::path(output).parent_path();
-  if (!folder.empty() && !fs::is_directory(folder, ignored)) {
-    throw misuse(verb, fmt::format("-o {}: there is no folder '{}'", output, folder.string()));
-  }
-  if (fs::is_directory(output, ignored)) throw misuse(verb, "-o " + output + ": this is a folder");
-  if (fs::equivalent(input, output, ignored)) throw misuse(verb, "-o " + output + ": would overwrite the input");
 }
 
 // All values as text, as they were typed.
@@ -210,7 +198,6 @@ Options interpret(const std::string& verb, const Raw& raw) {
     }
     return MorphologyOptions{file, format, frame};
   }
-  check_output(verb, file, raw.output);
   if (verb == "export") {
     return ExportOptions{file, raw.output, frame_choice(verb, raw.frame.empty() ? "all" : raw.frame)};
   }

@@ -10,6 +10,7 @@
 namespace crumble::tool {
 
 int scale(const ScaleOptions& options, const Typed& typed, std::ostream& out) {
+  const OwnedOutputs owned = own_output(options.output, options.input);
   const AgglomerateReader reader(options.input);
   Particles particles = reader.particles();
   Frame frame = reader.last_frame();

@@ -8,6 +8,7 @@
 #include "common/agglomerate/fragments.hpp"
 #include "common/agglomerate/morphology.hpp"
 #include "common/io/hdf5.hpp"
+#include "common/io/output_file.hpp"
 
 namespace crumble::tool {
 namespace {
@@ -102,7 +103,8 @@ void put_cell_data(hdf5::Group& data, const Particles& particles, const Frame& f
 
 }  // namespace
 
-void write_vtkhdf(const std::filesystem::path& path, const Particles& particles, const Frame& frame) {
+void write_vtkhdf(const std::filesystem::path& name, const Particles& particles, const Frame& frame) {
+  const std::filesystem::path path = followed(name);
   const std::filesystem::path temporary = path.string() + ".tmp";
   try {
     hdf5::File file = hdf5::File::create(temporary);
@@ -119,7 +121,7 @@ void write_vtkhdf(const std::filesystem::path& path, const Particles& particles,
     points = {};
     grid = {};
     file.close();
-    std::filesystem::rename(temporary, path);
+    publish(temporary, path);
   } catch (...) {
     std::error_code ignored;
     std::filesystem::remove(temporary, ignored);
