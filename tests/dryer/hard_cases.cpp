@@ -17,6 +17,8 @@
 #include "dryer/inertial.hpp"
 #include "dryer/stabilised.hpp"
 #include "tests/dryer/samples.hpp"
+#include "tests/long_version.hpp"
+#include "tests/seeds.hpp"
 
 using namespace crumble;
 using namespace crumble::samples;
@@ -38,8 +40,8 @@ std::unique_ptr<Integrator> integrator(Method method, const DryingModel& model, 
     return std::make_unique<Implicit>(model, state, ImplicitControl{.largest_displacement = 0.05});
   if (method == Method::stabilised)
     return std::make_unique<Stabilised>(model, state, StabilisedControl{.largest_displacement = 0.05});
-  if (method == Method::brownian) return std::make_unique<Brownian>(model, state, 1, BrownianControl{});
-  return std::make_unique<Inertial>(model, state, Inertial::recommended_step(model, state.particles), 1);
+  if (method == Method::brownian) return std::make_unique<Brownian>(model, state, seeded(1), BrownianControl{});
+  return std::make_unique<Inertial>(model, state, Inertial::recommended_step(model, state.particles), seeded(1));
 }
 
 // A droplet that is gone in a microsecond: its front is as fast as the capillary force can follow.
@@ -106,11 +108,11 @@ HardCase shell(double droplet_radius) {
 HardCase of_ten_radii() {
   std::vector<double> radius(4, a);
   radius.resize(16, 0.1 * a);
-  return {shrinking(60e-9), random_suspension(radius, 1300, 60e-9, 5)};
+  return {shrinking(60e-9), random_suspension(radius, 1300, 60e-9, seeded(5))};
 }
 
 HardCase drops(int number, double lifetime, double thermal_energy) {
-  HardCase out{shrinking(70e-9), start(number, 70e-9, 1)};
+  HardCase out{shrinking(70e-9), start(number, 70e-9, seeded(1))};
   out.model.droplet.lifetime = lifetime;
   out.model.thermal_energy = thermal_energy;
   return out;
@@ -153,11 +155,12 @@ TEST_P(Hard, case_dries_to_the_end) {
   }
   EXPECT_EQ(state.state.time, end);
   EXPECT_TRUE(finite(state.state));
-  EXPECT_LT(run->statistics().largest_overlap, given.deepest);
+  expect_within("deepest overlap", run->statistics().largest_overlap, 0, given.deepest);
   for (const Contact& c : state.state.contacts) EXPECT_NEAR(c.normal.norm(), 1, 1e-9);  // what a valid file needs
   // The last of the liquid pulls inwards only: nothing is thrown out.
-  for (std::size_t p = 0; p < state.particles.size(); ++p)
-    EXPECT_LT(state.state.position[p].norm(), given.model.droplet.initial_radius + 5 * a) << p;
+  double farthest = 0;
+  for (const Vector3& x : state.state.position) farthest = std::max(farthest, x.norm());
+  expect_within("farthest beyond the droplet, a", (farthest - given.model.droplet.initial_radius) / a, -unbounded, 5);
 }
 
 TEST_P(Hard, case_restarts_in_the_middle_to_the_same_bits) {
@@ -236,7 +239,7 @@ TEST(HardCases, coincident_centres_with_noise_stand_in_the_reported_overlap) {
   const auto run = integrator(Method::brownian, given.model, given.state);
   for (int k = 0; k < 10; ++k) run->step(1);
   EXPECT_TRUE(finite(given.state.state));
-  EXPECT_GT(run->statistics().largest_overlap, 1.9);
+  expect_within("deepest overlap", run->statistics().largest_overlap, 1.9, 2);
 }
 
 // The shell stands dry around the liquid; what is loose inside is the only one that diffuses. From the centre it has 4
@@ -251,8 +254,7 @@ TEST(HardCases, a_loose_particle_stays_in_its_shell_however_long_it_diffuses) {
     run->step(1);
     farthest = std::max(farthest, given.state.state.position[12].norm());
   }
-  EXPECT_GT(farthest, 1e-9);
-  EXPECT_LT(farthest, 6e-9);
+  expect_within("farthest, nm", 1e9 * farthest, 1, 6);
 }
 
 // Every bond begins with a twist that it cannot have by itself: thermal springs hold 0.03 rad, and of 1 rad five in six
@@ -275,28 +277,30 @@ TEST(HardCases, a_bond_that_breaks_and_forms_again_within_a_step_forgets) {
     EXPECT_TRUE(bond.twisting > 0.5 || std::abs(bond.twisting) < 0.3) << bond.twisting;
     ++(bond.twisting > 0.5 ? kept : again);
   }
-  EXPECT_GT(kept, 10);
-  EXPECT_GT(again, 10);
+  expect_within("bonds kept", kept, 11, pairs);
+  expect_within("bonds made again", again, 11, pairs);
   // Lost for good or for a while: all that do not remember.
   EXPECT_GE(run->statistics().contacts_lost, pairs - kept);
   EXPECT_GE(run->statistics().contacts_made, again);
 }
 
-// At about the memory that a particle may have: what the state and the integrator hold, 600 bytes each.
+// At about the memory that a particle may have: what the state and the integrator hold, 600 bytes each. 20,000
+// particles show it; the long version starts 100,000.
 template <class Run>
-void start_and_step_a_hundred_thousand(Run make) {
+void start_and_step_a_large_droplet(Run make) {
   const auto resident = [] {
     long pages = 0, own = 0;
     std::ifstream("/proc/self/statm") >> pages >> own;
     return own * sysconf(_SC_PAGESIZE);
   };
   const long before = resident();
-  constexpr int number = 100000;
+  const int number = long_version() ? 100000 : 20000;
+  const double radius = 32e-6 * std::cbrt(number / 1e5);  // 1 % of solids
   DryingModel model = hollow();
-  model.droplet = {32e-6, 30e-3, 1.75e-4};
-  Agglomerate state = random_suspension(std::vector<double>(number, 150e-9), 1300, 32e-6, 1);
+  model.droplet = {radius, 30e-3 * std::pow(radius / 32e-6, 2), 1.75e-4};
+  Agglomerate state = random_suspension(std::vector<double>(number, 150e-9), 1300, radius, 1);
   const auto run = make(model, state);
-  for (int k = 0; k < 20; ++k) run->step(30e-3);
+  for (int k = 0; k < 20; ++k) run->step(model.droplet.lifetime);
   EXPECT_TRUE(finite(state.state));
   EXPECT_GT(run->statistics().particle_steps, 1000);
   EXPECT_LT(run->statistics().particle_steps, run->statistics().steps * number / 10) << "idle particles cost nothing";
@@ -307,14 +311,14 @@ void start_and_step_a_hundred_thousand(Run make) {
 #endif
 }
 
-TEST(HardCases, a_hundred_thousand_particles_start_and_step_in_600_bytes_each_by_implicit_steps) {
-  start_and_step_a_hundred_thousand([](const DryingModel& model, Agglomerate& state) {
+TEST(HardCases, a_large_droplet_starts_and_steps_in_600_bytes_a_particle_by_implicit_steps) {
+  start_and_step_a_large_droplet([](const DryingModel& model, Agglomerate& state) {
     return std::make_unique<Implicit>(model, state, ImplicitControl{.largest_displacement = 0.05});
   });
 }
 
-TEST(HardCases, a_hundred_thousand_particles_start_and_step_in_600_bytes_each_by_stabilised_steps) {
-  start_and_step_a_hundred_thousand([](const DryingModel& model, Agglomerate& state) {
+TEST(HardCases, a_large_droplet_starts_and_steps_in_600_bytes_a_particle_by_stabilised_steps) {
+  start_and_step_a_large_droplet([](const DryingModel& model, Agglomerate& state) {
     return std::make_unique<Stabilised>(model, state, StabilisedControl{.largest_displacement = 0.05});
   });
 }
