@@ -12,10 +12,8 @@
 #endif
 // The length of their registers is not known here; such processors have NEON, too.
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128)
-#include <hwy/detect_targets.h>
 // Nothing is chosen at run time, where Highway would ask for more than the level has (on arm64: cryptography).
-#undef HWY_HAVE_RUNTIME_DISPATCH
-#define HWY_HAVE_RUNTIME_DISPATCH 0
+#define HWY_COMPILE_ONLY_STATIC
 #include <hwy/highway.h>
 #if HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_EMU128
 #error "Highway knows no vector registers at this level; on x86-64 compile with -march=x86-64-v2 or better"
