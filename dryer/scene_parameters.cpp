@@ -81,7 +81,7 @@ const ParameterTable& drying_parameters() {
       {"dry",
        "A particle that the liquid has left behind (r > R + a). No capillary force acts on it; its bonds stay.",
        {P::flag("everything_acts", "Thermal noise goes on as in the liquid").by_default(false),
-        P::real("drag_factor", "", "Of Stokes drag, which stays as a relaxation; 0.1 to 10 changes nothing (manual)")
+        P::real("drag_factor", "", "Of Stokes drag, which stays as a relaxation; the manual says what it changes")
             .above(0)
             .by_default(1)}},
       {"crust",
@@ -127,7 +127,7 @@ const ParameterTable& drying_parameters() {
       {"error",
        "How the run judges itself.",
        {P::flag("estimate",
-                "D = 0: also run with doubled step control (about half as long again) and report the difference")
+                "D = 0: also run with doubled step control (three quarters as long again) and report the difference")
             .by_default(true)}},
       {"output",
        "What the file holds.",

@@ -15,6 +15,7 @@ import re
 import statistics
 import sys
 
+import breakups
 import published
 from interval import half_width
 
@@ -124,10 +125,13 @@ class Page:
         ours, held = ([run["results"]["coordination"] for run in self.granules(name)] for name in ("compact", "adhesive"))
         if not ours or not held:
             return
-        self.add(f"<p>At finite Pe our granules are denser than the paper's: coordination {statistics.fmean(ours):.2f}, the paper "
-                 f"{published.GRANULES['compact']['coordination']}. A bond of the printed constants is worth 4.2 kT and lives nanoseconds, so thermal motion "
-                 f"compacts the wet granule. With bonds that hold (42 kT) the coordination is {statistics.fmean(held):.2f} and "
-                 "what follows from it, brittle breakage near the rigid prediction included, is the paper's. The manual of "
+        broken = [breakups.load(path) for name in self.broken if name.startswith("adhesive")
+                  and (path := self.results / "breakup" / f"{name}.json").exists()]
+        ends = "".join(f" One of them breaks {found['results']['breakage']}, at {found['results']['critical_stress_pa'] / rigid:.2f} "
+                       "of its rigid prediction." for found, rigid in broken if rigid is not None)
+        self.add(f"<p>Coordination at Pe = 1: {statistics.fmean(ours):.2f}, the paper {published.GRANULES['compact']['coordination']}. "
+                 "A bond of the printed constants is worth 4.2 kT and lives nanoseconds, so thermal motion rearranges the wet granule. "
+                 f"With bonds that hold (42 kT) the coordination is {statistics.fmean(held):.2f}.{ends} The manual of "
                  "dryer shows one choice at a time.</p>")
 
     def strength(self):
