@@ -10,7 +10,7 @@ in_system dpkg --add-architecture arm64
 in_system apt-get -q update > /dev/null
 
 # Libraries of the other architecture; those of headers alone are one package for all.
-read -r -d '' -a development <<< "$(sed -n 's/[ #].*//; /-dev$/p' "$top/pipeline/packages.txt")" || true
+read -r -d '' -a development <<< "$(sed -n '/^\[/q; s/[ #].*//; /-dev$/p' "$top/pipeline/packages.txt")" || true
 read -r -d '' -a libraries <<< "$(in_system apt-cache show --no-all-versions "${development[@]}" |
   awk '/^Package: / { name = $2 } /^Architecture: / { print name ($2 == "all" ? "" : ":arm64") }' | sort -u)" || true
 install cmake ninja-build pkg-config g++-aarch64-linux-gnu qemu-user "${libraries[@]}"

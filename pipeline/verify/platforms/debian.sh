@@ -11,6 +11,6 @@ step granules make -C /crumble/pipeline
 tail -n 12 "$folder/granules.log"
 step tests make -C /crumble/pipeline test
 grep -E 'tests passed|^The following tests FAILED|^\s+[0-9]+ - ' "$folder/tests.log" || true
-read -r -d '' -a packages <<< "$(sed 's/#.*//' "$top/pipeline/packages.txt")" || true
+read -r -d '' -a packages <<< "$(sed '/^\[/,$d; s/#.*//' "$top/pipeline/packages.txt")" || true
 describe "${packages[@]}"
 [[ ! $failed ]]
