@@ -13,10 +13,13 @@ namespace crumble {
 // radius a at a distance whose square is larger than that of the front by `excess`: r - R as a difference of squares,
 // for its digits. 0 where the surface does not cut the particle (surface_cuts()). At most 0; times the position it is
 // the force, good to 1e-5 of the largest (test).
-inline float surface_pull(float surface_tension, float R, float a, float excess) {
-  const float r = std::sqrt(std::max(excess + R * R, 0.0f)), offset = excess / (r + R);
-  const float squared = r + R > a ? std::max((a - offset) * (a + offset), 0.0f) : 0.0f;
-  return -2 * std::numbers::pi_v<float> * surface_tension * std::sqrt(squared) / std::max(r, 1e-6f * R);
+// Number: float, or a register of them.
+template <class Number>
+inline Number surface_pull(const Number& surface_tension, const Number& R, const Number& a, const Number& excess) {
+  using std::max, std::sqrt;
+  const Number none = 0, r = sqrt(max(excess + R * R, none)), offset = excess / (r + R);
+  const Number squared = where_greater(r + R, a, max((a - offset) * (a + offset), none), none);
+  return -2 * std::numbers::pi_v<float> * surface_tension * sqrt(squared) / max(r, 1e-6f * R);
 }
 
 // pull, radius: padded() to whole registers. Leaves pull as it is where there is no liquid left (R = 0).
@@ -28,8 +31,8 @@ inline void surface_pulls(double surface_tension, double R, const Position* posi
     const double* x = position[m].at;
     pull[m] = static_cast<float>(x[0] * x[0] + x[1] * x[1] + x[2] * x[2] - R * R);
   }
-#pragma omp simd
-  for (std::size_t m = 0; m < padded(count); ++m) pull[m] = surface_pull(sigma, front, radius[m], pull[m]);
+  for (std::size_t m = 0; m < count; m += lanes)
+    surface_pull<Lane>(sigma, front, Lane::load(radius + m), Lane::load(pull + m)).store(pull + m);
 }
 
 }  // namespace crumble

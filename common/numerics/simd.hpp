@@ -106,6 +106,9 @@ class Simd {
   Register at[registers];
 };
 
+// The same of single numbers, for laws that are written for both.
+inline float where_greater(float x, float y, float a, float b) { return x > y ? a : b; }
+
 template <class T, std::size_t N>
 HWY_INLINE Simd<T, 2 * N> joined(const Simd<T, N>& low, const Simd<T, N>& high) {
   using Both = Simd<T, 2 * N>;

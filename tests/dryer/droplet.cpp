@@ -31,8 +31,10 @@ TEST(SurfacePull, is_the_capillary_force_over_the_distance_in_single_precision) 
   for (const double R : {215e-9, 40e-9, 8e-9}) {
     for (double r = std::max(R - 1.1 * a, 0.05 * a); r < R + 1.1 * a; r += 0.0371 * a) {
       const double law = surface_cuts(a, r, R) ? capillary_force(sigma, a, r - R) : 0;
-      const float pull = surface_pull(static_cast<float>(sigma), static_cast<float>(R), static_cast<float>(a),
-                                      static_cast<float>(r * r - R * R));
+      const auto s = static_cast<float>(sigma), front = static_cast<float>(R), radius = static_cast<float>(a),
+                 excess = static_cast<float>(r * r - R * R), pull = surface_pull(s, front, radius, excess);
+      const double of_many = surface_pull<Lane>(s, front, radius, excess)[lanes - 1];
+      EXPECT_NEAR(-of_many * r, law, 1e-5 * full) << r / a << " of " << R / a;
       EXPECT_NEAR(-static_cast<double>(pull) * r, law, 1e-5 * full) << r / a << " of " << R / a;
     }
   }
