@@ -4,7 +4,6 @@
 #include <random>
 
 #include "breaker/alignment.hpp"
-#include "breaker/triangular.hpp"
 #include "common/hydro/dense_hydrodynamics.hpp"
 #include "common/hydro/rigid_body.hpp"
 #include "samples.hpp"
@@ -118,15 +117,6 @@ TEST(BondIncrement, ConvexPartIsPositiveSemidefiniteUnderCompression) {
   MatrixXd K(12, 12);
   K << K_ii, K_ij, K_ij.transpose(), K_jj;
   EXPECT_GT(Eigen::SelfAdjointEigenSolver<MatrixXd>(K).eigenvalues().minCoeff(), -1e-12 * K.norm());
-}
-
-TEST(Triangular, InverseFromFactorIsTheInverse) {
-  for (const int n : {1, 63, 64, 65, 130, 345}) {
-    const MatrixXd B = MatrixXd::Random(n, n);
-    const MatrixXd A = B * B.transpose() + n * MatrixXd::Identity(n, n);
-    const MatrixXd inverse = inverse_from_factor(A.llt().matrixL());
-    EXPECT_LT((A * inverse - MatrixXd::Identity(n, n)).norm(), 1e-11 * n);
-  }
 }
 
 // Loads of motions and strains from a dense factor of the whole mobility, which shares no code with the frame.
