@@ -26,7 +26,9 @@ Implicit::Implicit(const BreakupModel& model, const Protocol& protocol, const st
                    double tolerance)
     : Integrator(model, protocol, radius, std::move(frame)),
       tolerance_(tolerance),
-      hydrodynamics_(radius, model.viscosity, model.hydro),
+      hydrodynamics_(radius, model.viscosity, model.hydro,
+                     0.1 * tolerance > 10 * BodyHydrodynamics::single_error ? BodyHydrodynamics::Precision::float32
+                                                                            : BodyHydrodynamics::Precision::float64),
       solver_(radius_, length_, network_.laws()) {
   hydrodynamics_.renew_far_field(frame_.position);
   far_reference_ = near_reference_ = frame_.position;

@@ -10,7 +10,8 @@ namespace crumble {
 // What one `tolerance` controls, a being the mean radius and l = h_po - h_eq the range of a bond:
 //   local error of a step      gap of a bond  tolerance l,  anything else  0.1 tolerance a
 //   largest motion in a step   4 tolerance a
-//   matrices of the far field  renewed after a motion of 0.1 tolerance a, lubrication after 0.02 tolerance a
+//   matrices of the far field  renewed after a motion of 0.1 tolerance a, lubrication after 0.02 tolerance a;
+//                              in float32 where ten times its error is less than that motion
 //   a contact that is made     located within an overlap of 0.01 tolerance a
 //   a contact that is lost     within a strain of 0.1 tolerance
 // All errors fall in proportion to it.
@@ -24,7 +25,6 @@ class Implicit : public Integrator {
 
   const BodyHydrodynamics& hydrodynamics() const { return hydrodynamics_; }
   const Quaternion& rotation() const { return rotation_; }
-  double next_step() const { return next_dt_; }
 
   Memory memory() const override;
   void recall(const Memory& memory) override;

@@ -16,7 +16,7 @@ namespace crumble {
 // with drag = 1/dt and f the load of the flow: backward Euler for R dq/dt = f + contact loads, the plastic springs
 // mapped back onto their limits. The normal energy ends at the pull-off gap, so that the minimum is a local one: the
 // first that is met going downhill from the increments at the start. Newton's method with a line search on the energy;
-// R is dense, so every iteration is one Cholesky factor of 6N.
+// R is dense, so a factor is one of order 6N: it is kept over the iterations of a step while corrections fall tenfold.
 class ImplicitStep {
  public:
   ImplicitStep(const std::vector<double>& radius, double length, const BondLaws& laws);

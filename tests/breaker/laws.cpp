@@ -1,6 +1,8 @@
 // Laws and closed forms behind the integrators.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
 #include <random>
 
 #include "breaker/alignment.hpp"
@@ -148,6 +150,31 @@ TEST(BodyHydrodynamics, IsThatOfTheDenseFactor) {
   expect_same_loads(Rung::fts);
   expect_same_loads(Rung::fts_relative_lubrication);
   expect_same_loads(Rung::fts_lubrication);
+}
+
+// 115 spheres at least 2.02 a apart on a sphere of 6.6 a, and a string of 30.
+TEST(BodyHydrodynamics, SinglePrecisionIsAsGoodAsItSays) {
+  std::vector<Vector3> shell, string;
+  for (int k = 0; k < 115; ++k) {
+    const double z = 1 - (2 * k + 1) / 115.0, turn = k * std::numbers::pi * (3 - std::sqrt(5.0)),
+                 s = std::sqrt(1 - z * z);
+    shell.push_back(6.6 * a * Vector3(s * std::cos(turn), s * std::sin(turn), z));
+  }
+  for (int k = 0; k < 30; ++k) string.push_back({2 * a * k, 0, 0});
+  for (const auto& position : {shell, string})
+    for (const Rung rung : {Rung::fts, Rung::fts_relative_lubrication}) {
+      using Precision = BodyHydrodynamics::Precision;
+      const std::vector<double> radius(position.size(), a);
+      const HydroModel model = elongation(rung).hydro;
+      BodyHydrodynamics coarse(radius, 1, model, Precision::float32), fine(radius, 1, model, Precision::float64);
+      coarse.renew_far_field(position);
+      fine.renew_far_field(position);
+      const double error = BodyHydrodynamics::single_error;
+      EXPECT_LT((coarse.resistance() - fine.resistance()).norm(), error * fine.resistance().norm());
+      EXPECT_LT((coarse.free_loads() - fine.free_loads()).norm(), error * fine.free_loads().norm());
+      EXPECT_LT((coarse.turning() - fine.turning()).norm(), error);
+      EXPECT_GT((coarse.resistance() - fine.resistance()).norm(), 0);
+    }
 }
 
 TEST(BodyHydrodynamics, FreeLoadsHaveNoNetForceNorTorque) {
