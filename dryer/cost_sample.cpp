@@ -39,6 +39,8 @@ Agglomerate packed_cluster(const DryingScene& scene, const DryingModel& model) {
   const double a = scene.smallest_radius();
   const std::size_t count = sample_size(scene);
   const BondLaw law(model.contact, model.material, a, a);
+  // At rest: what a lattice out of equilibrium does first is not what a run does.
+  const double gap = model.contact.normal == NormalLaw::jkr ? Jkr(model.material, a).equilibrium_gap : 0;
   const auto side = static_cast<int>(std::ceil(std::cbrt(1.5 * static_cast<double>(count))));
   Agglomerate cluster;
   std::map<std::tuple<int, int, int>, std::int32_t> places;
@@ -48,7 +50,7 @@ Agglomerate packed_cluster(const DryingScene& scene, const DryingModel& model) {
     const int x = place % side, y = place / side % side, z = place / (side * side);
     const auto p = static_cast<std::int32_t>(places.size());
     places[{x, y, z}] = p;
-    cluster.state.position.push_back(2 * a * (Vector3(x, y, z) - Vector3::Constant(0.5 * (side - 1))));
+    cluster.state.position.push_back((2 * a + gap) * (Vector3(x, y, z) - Vector3::Constant(0.5 * (side - 1))));
     cluster.particles.radius.push_back(a);
     cluster.particles.mass.push_back(4.0 / 3.0 * std::numbers::pi * a * a * a * model.material.density);
     cluster.particles.id.push_back(p);
@@ -76,13 +78,13 @@ double reach(const Agglomerate& sample) {
   return farthest;
 }
 
-// A step() of free length may hold any number of evaluations: a tenth of the way of the front in one, at most a
-// hundred relaxation times of a bond.
+// A step() may hold any number of evaluations: as many as the scene asks for, but at most some hundred a stabilised
+// step.
 double latest_time(const DryingScene& scene, const DryingModel& model, const Integrator& integrator, double now) {
   if (!scene.is(IntegratorKind::stabilised)) return integrator.front().end();
   const double a = scene.smallest_radius();
   const BondLaw law(model.contact, model.material, a, a);
-  return std::min(integrator.front().end(), now + 1000 * drag_coefficient(model.viscosity, a) / law.normal_stiffness());
+  return std::min(integrator.front().end(), now + 4e4 * drag_coefficient(model.viscosity, a) / law.normal_stiffness());
 }
 
 }  // namespace
