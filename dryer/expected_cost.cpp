@@ -175,7 +175,7 @@ ExpectedCost expected_cost(const DryingScene& s) {
       implicit_cost(s, cost, seconds);
       break;
   }
-  cost.least_seconds = 0.7 * seconds;
+  cost.least_seconds = 0.5 * seconds;
   cost.most_seconds = 1.6 * seconds + 0.1;
   cost.memory = memory_of(static_cast<double>(s.radius.size()));
   return cost;
