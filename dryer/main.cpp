@@ -8,12 +8,14 @@
 
 #include "common/io/command_line.hpp"
 #include "common/io/interrupt.hpp"
+#include "common/io/machine.hpp"
 #include "common/io/output_lock.hpp"
 #include "common/io/program.hpp"
 #include "common/io/provenance.hpp"
 #include "common/numerics/noise.hpp"
 #include "dryer/continuum_command.hpp"
 #include "dryer/drying_checkpoint.hpp"
+#include "dryer/expected_cost.hpp"
 #include "dryer/regime.hpp"
 #include "dryer/result.hpp"
 #include "dryer/scene.hpp"
@@ -42,18 +44,18 @@ ProgramDescription description() {
 // How many of the frames after the first are due: those whose radius the front has passed, and the last one at the end.
 int frames_due(const DryingRun& run) { return run.frames_passed() + (run.finished() ? 1 : 0); }
 
-void advance(DryingRun& run, ProgressPrinter& progress) {
+void advance(DryingRun& run, const ExpectedCost& cost, ProgressPrinter& progress) {
   run.step();
-  progress.update(run.fraction(), run.integrator().statistics().steps, [&] {
+  progress.update(cost.share(run.fraction()), run.integrator().statistics().steps, [&] {
     return fmt::format("R = {:.3g} nm, {} contacts", run.droplet_radius() * 1e9, run.state().state.contacts.size());
   });
 }
 
-DryingOutcome run_companion(const DryingScene& scene, const CommandLine& line) {
+DryingOutcome run_companion(const DryingScene& scene, const ExpectedCost& cost, const CommandLine& line) {
   ProgressPrinter progress(stderr, std::filesystem::path(line.output).stem().string() + ", error estimate", line.quiet);
   DryingRun run(scene, 2);
   while (!run.finished()) {
-    advance(run, progress);
+    advance(run, cost, progress);
     if (interrupt_signal())
       throw Interrupted(interrupt_signal(), "stopped during the error estimate: nothing to keep yet");
   }
@@ -67,7 +69,7 @@ AgglomerateWriter open_writer(const CommandLine& line, const Scene& scene, const
 
 // Steps to the end and writes the frames that fall due. Whatever ends it early leaves a checkpoint.
 void run_to_the_end(DryingRun& run, AgglomerateWriter& writer, const DryingCheckpoint& checkpoint, DryingProgress done,
-                    ProgressPrinter& progress) {
+                    const ExpectedCost& cost, ProgressPrinter& progress) {
   const auto frame = [&](int number) {
     append_frame(writer, run);
     done.frames = number;
@@ -76,7 +78,7 @@ void run_to_the_end(DryingRun& run, AgglomerateWriter& writer, const DryingCheck
   try {
     if (done.frames == 0) frame(1);
     while (!run.finished()) {
-      advance(run, progress);
+      advance(run, cost, progress);
       if (frames_due(run) >= done.frames) frame(frames_due(run) + 1);
       if (interrupt_signal())
         throw Interrupted(interrupt_signal(), fmt::format("stopped at t = {:g} s", run.state().state.time));
@@ -96,17 +98,20 @@ int dry(int argc, const char* const* argv) {
     deliver(*line.answer);
     return 0;
   }
-  if (line.threads > 0) omp_set_num_threads(line.threads);
+  const Machine machine = this_machine();
+  omp_set_num_threads(line.threads > 0 ? line.threads : default_threads(omp_get_max_threads(), machine));
   const Scene text = Scene::read(line.scene, drying_parameters(), line.overrides);
-  const DryingScene scene = drying_scene(text);
+  const DryingScene scene = drying_scene(text, machine);
   const Provenance provenance = make_provenance("dryer", {argv, argv + argc}, scene.seed, rng_name);
   Report report("dryer", provenance.version, line.scene, static_cast<std::int64_t>(scene.seed));
   ProgressPrinter progress(stderr, line.check ? line.scene : std::filesystem::path(line.output).stem().string(),
                            line.quiet);
   for (const std::string& fact : describe(scene)) progress.say(fact);
+  const ExpectedCost cost = expected_cost(scene);
+  progress.say(expected_cost_text(scene, cost, machine));
   report_regime(report, scene);
   if (line.check) {
-    const DryingRun builds(scene, 1);
+    check_start(scene);
     return 0;
   }
 
@@ -115,11 +120,11 @@ int dry(int argc, const char* const* argv) {
   if (line.restart) checkpoint.require();
   if (checkpoint.found()) progress.say("resuming from " + checkpoint.path());
   DryingProgress done = checkpoint.found() ? checkpoint.progress() : DryingProgress{};
-  if (!checkpoint.found() && scene.estimate_error) done.companion = run_companion(scene, line);
+  if (!checkpoint.found() && scene.estimate_error) done.companion = run_companion(scene, cost, line);
   DryingRun run = checkpoint.found() ? checkpoint.resume(scene) : DryingRun(scene, 1);
   AgglomerateWriter writer = checkpoint.found() ? AgglomerateWriter::resume(line.output, done.last_frame_step)
                                                 : open_writer(line, text, provenance, run);
-  run_to_the_end(run, writer, checkpoint, done, progress);
+  run_to_the_end(run, writer, checkpoint, done, cost, progress);
 
   const Morphology result = morphology(run.state().particles, run.state().state);
   write_morphology(writer, result);
@@ -134,6 +139,7 @@ int dry(int argc, const char* const* argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  wait_without_spinning(argv);
   // Arrays of many particles go back to the system when they are freed; by default glibc keeps what is allocated again.
   mallopt(M_MMAP_THRESHOLD, 1 << 17);
   const bool continuum = argc > 1 && std::string_view(argv[1]) == "continuum";

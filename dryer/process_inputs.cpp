@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -50,7 +51,16 @@ RadiusDistribution radius_distribution(const Scene& scene) {
           of_distribution(scene, "particle.second_share", "bimodal")};
 }
 
-std::vector<double> particle_radii(const Scene& scene) {
+// Before the first array of this size is asked for.
+void refuse_beyond_memory(const Scene& scene, const std::string& key, double number, const Machine& machine) {
+  if (memory_of(number) <= machine.memory) return;
+  throw scene.error(key, fmt::format("means {:.3g} particles, which take {:.2g} GB of memory; {:.2g} GB are free here. "
+                                     "Take at most {:.2g} particles, or another machine",
+                                     number, 1e-9 * memory_of(number), 1e-9 * machine.memory,
+                                     std::max(number * machine.memory / memory_of(number), 1.0)));
+}
+
+std::vector<double> particle_radii(const Scene& scene, const Machine& machine) {
   const double a = scene.real("particle.radius"), R0 = scene.real("droplet.radius");
   const RadiusDistribution distribution = radius_distribution(scene);
   for (const char* key : {"particle.radius", "particle.second_radius"})
@@ -74,6 +84,7 @@ std::vector<double> particle_radii(const Scene& scene) {
   if ((equal || !counted) && number > 0.3 * capacity) refuse(number / capacity);
   if (number > 2147483647)
     throw scene.error(key, fmt::format("means {:.3g} particles; they are numbered up to 2147483647", number));
+  refuse_beyond_memory(scene, key, number, machine);
   const auto seed = static_cast<std::uint64_t>(scene.integer("run.seed"));
   std::vector<double> radius = counted ? radii_by_number(distribution, static_cast<std::size_t>(number), seed)
                                        : radii_by_volume(distribution, scene.real(key) * R0 * R0 * R0, seed);
@@ -119,9 +130,11 @@ double lifetime(const Scene& scene, const ProcessInputs& given) {
 
 }  // namespace
 
-ProcessInputs process_inputs(const Scene& scene) {
+double memory_of(double particles) { return 3e7 + 1200 * particles; }
+
+ProcessInputs process_inputs(const Scene& scene, const Machine& machine) {
   ProcessInputs p;
-  p.radius = particle_radii(scene);
+  p.radius = particle_radii(scene, machine);
   p.viscosity = liquid_property(scene, "liquid.viscosity", water_viscosity, water_viscosity_from, water_viscosity_to);
   p.surface_tension = liquid_property(scene, "liquid.surface_tension", water_surface_tension,
                                       water_surface_tension_from, water_surface_tension_to);

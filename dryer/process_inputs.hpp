@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "common/io/machine.hpp"
 #include "common/io/parameters.hpp"
 
 namespace crumble {
@@ -22,6 +23,10 @@ struct ProcessInputs {
 //   v = k/(2 R0)                                 speed of the front at the start                 (Eq. 24)
 //   Pe = R0^2/(D tau) = k/D                      Peclet number, D = kT/(6 pi mu a)               (Eqs. 22-23)
 // Throws InputError naming file, line and keys where they contradict each other, say too little, or cannot be.
-ProcessInputs process_inputs(const Scene& scene);
+// So does a droplet that would need more memory than the machine has.
+ProcessInputs process_inputs(const Scene& scene, const Machine& machine);
+
+// At the peak of a run, bytes, measured from 1000 to 100,000 particles (dryer/README.md).
+double memory_of(double particles);
 
 }  // namespace crumble

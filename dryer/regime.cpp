@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "dryer/drag.hpp"
-#include "dryer/expected_cost.hpp"
 
 namespace crumble {
 
@@ -88,7 +87,6 @@ std::vector<std::string> describe(const DryingScene& s) {
                               s.model.droplet.lifetime));
   lines.push_back(r.words());
   if (steps_are_free(s)) lines.push_back(fmt::format("integrator: {}", integrator_text(s)));
-  lines.push_back(expected_cost_text(s));
   return lines;
 }
 

@@ -34,6 +34,14 @@ std::unique_ptr<Integrator> make_integrator(const DryingScene& scene, const Dryi
   return std::make_unique<Implicit>(model, state, control);
 }
 
+void check_start(const DryingScene& scene) {
+  constexpr std::size_t enough = 20000;
+  DryingScene first = scene;
+  if (first.radius.size() > enough) first.radius.resize(enough);
+  const DryingRun builds(first, 1);
+  for (const SofteningStage& stage : softening_stages(scene)) softened_model(scene, stage.softening);
+}
+
 DryingRun::DryingRun(const DryingScene& scene, double coarsening, Begin begin)
     : scene_(scene),
       coarsening_(coarsening),

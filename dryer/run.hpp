@@ -14,6 +14,11 @@ namespace crumble {
 std::unique_ptr<Integrator> make_integrator(const DryingScene& scene, const DryingModel& model, double coarsening,
                                             int depth, Agglomerate& state);
 
+// Throws what a run of the scene would at its start, without making all of a large one: the start is filled in
+// descending order of the radii, and the first 20,000 particles are those of the whole. More of equal ones take at most
+// 32 % of what centres can take (30 % of the droplet is solids at most), where random addition still finds places.
+void check_start(const DryingScene& scene);
+
 class DryingRun {
  public:
   // coarsening: factor on the step control; 1 for the run itself, 2 for the companion that measures its error.

@@ -54,8 +54,8 @@ IntegratorKind integrator_kind(const Scene& scene, const DryingModel& model) {
 
 }  // namespace
 
-DryingScene drying_scene(const Scene& scene) {
-  const ProcessInputs process = process_inputs(scene);
+DryingScene drying_scene(const Scene& scene, const Machine& machine) {
+  const ProcessInputs process = process_inputs(scene, machine);
   DryingScene s;
   s.nominal_radius = scene.real("particle.radius");
   s.radius = process.radius;

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "common/io/machine.hpp"
 #include "common/io/parameters.hpp"
 #include "dryer/brownian.hpp"
 #include "dryer/implicit.hpp"
@@ -38,6 +39,7 @@ struct DryingScene {
 };
 
 // Throws InputError naming file, line and keys where values contradict each other.
-DryingScene drying_scene(const Scene& scene);
+// Also if the droplet needs more memory than the machine has.
+DryingScene drying_scene(const Scene& scene, const Machine& machine = this_machine());
 
 }  // namespace crumble

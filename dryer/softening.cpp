@@ -30,8 +30,9 @@ bool can_be_softened(const DryingScene& scene, double factor) {
 
 std::vector<SofteningStage> softening_stages(const DryingScene& scene) {
   const int depth = scene.brownian.depth;
-  const SofteningStage packed{scene.softening, depth};
-  if (!scene.is(IntegratorKind::brownian) || scene.softening == 1 || !bonds_are_brief(scene)) return {packed};
+  const bool soft = scene.is(IntegratorKind::brownian) && can_be_softened(scene, scene.softening);
+  const SofteningStage packed{soft ? scene.softening : 1, depth};
+  if (!scene.is(IntegratorKind::brownian) || packed.softening == 1 || !bonds_are_brief(scene)) return {packed};
   std::vector<SofteningStage> stages;
   for (const SofteningStage& stage : {SofteningStage{4, 5, 0.3}, SofteningStage{2.5, 5, 1}})
     if (stage.softening > scene.softening && can_be_softened(scene, stage.softening)) stages.push_back(stage);

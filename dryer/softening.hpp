@@ -19,7 +19,8 @@ struct SofteningStage {
 // core, where more neighbours lie within its width. What the liquid leaves dry keeps its bonds, and those to its wet
 // neighbours break one by one: with the first dry particle the contacts are the material's own. A run that asks for
 // full stiffness has it throughout. Only for bonds that thermal motion breaks many times while a particle diffuses its
-// radius: others keep the history of how they came about, and have one softening throughout.
+// radius: others keep the history of how they came about, and have one softening throughout. Where no softer
+// contact holds a pair as tightly, the contacts are the material's own from the beginning.
 std::vector<SofteningStage> softening_stages(const DryingScene& scene);
 
 // What the integrator is given: the scene's model, with its contacts softened if particles diffuse.
