@@ -28,7 +28,7 @@ TESTS = {
     "test_dryer_brownian": ["Brownian*", "Inertial*", "BondBlock*", "Softening/*"],
     "test_dryer_morphology": ["*"],
     "test_dryer": ["Dryer/Hard*", "HardCases*", "Overdamped*", "Stabilised*", "Implicit.cundall*", "Start*", "ParticleRadii*",
-                   "Dryer/Polydisperse*", "-*hundred_thousand*:*restarts_in_the_middle*:*same_bits*"],
+                   "Dryer/Polydisperse*", "-*large_droplet*:*restarts_in_the_middle*:*same_bits*"],
     "test_dryer_continuum": ["*PointParticles*"],
     "test_numerics": ["Noise*"],
 }

@@ -387,17 +387,20 @@ TEST_P(BondedFraction, of_a_pair_in_a_closed_sphere_is_that_of_the_exact_law) {
     square += bonded * bonded / runs;
   }
   const double error = std::sqrt((square - mean * mean) / (runs - 1));
-  // 3 % for the finite step, see the manual. Of 16 runs (Student's t) five standard errors: 2e-4 by chance.
+  // 3 % for the finite step, see the manual. Of 16 runs (Student's t) five standard errors alone: 2e-4 by chance.
   expect_near("share over that of the law", mean * (1 + odds) / odds, 1, 5 * error * (1 + odds) / odds + 0.03);
   expect_within("its error", error / mean, 0, 0.1);
 }
 
 INSTANTIATE_TEST_SUITE_P(Softening, BondedFraction, ::testing::Values(1.0, 2.0, 4.0));
 
-// The drag on what is dry only lets it come to rest. Paths part, so means over seeds are compared; of one granule d_c
-// scatters by 3 % and the contacts by 5 %. (At Pe = 300 ten times the drag leaves 13 % fewer contacts: see the manual.)
-TEST(Brownian, the_drag_that_dry_particles_keep_does_not_change_the_granule) {
-  const int seeds = long_version() ? 40 : 8;
+// The drag on what is dry only lets it come to rest. Paths part, so means over seeds are compared: of 16 granules like
+// those of CI a tenth of the drag changed d_c by -0.2 % (2.3 % between pairs of the same seed) and the contacts by +1.5
+// % (5.1 %), ten times the drag by -0.1 % (1.3 %) and -4.5 % (3.4 %), less so in contacts that are softened less.
+// Bounds are 4.5 standard errors beyond these, 7e-6 by chance each. (At Pe = 300 ten times the drag leaves 13 % fewer
+// contacts: see the manual.)
+TEST(Brownian, the_drag_that_dry_particles_keep_hardly_changes_the_granule) {
+  const int seeds = long_version() ? 40 : 6;
   struct Granule {
     double diameter = 0, contacts = 0;
   };
@@ -418,13 +421,13 @@ TEST(Brownian, the_drag_that_dry_particles_keep_does_not_change_the_granule) {
     }
     return mean;
   };
-  const double errors = 4.5 / std::sqrt(seeds);
   const Granule usual = mean_granule(1);
   for (const double factor : {0.1, 10.0}) {
     const Granule other = mean_granule(factor);
-    expect_near(fmt::format("d_c at drag factor {}", factor), other.diameter / usual.diameter, 1, 0.01 + errors * 0.04);
+    expect_near(fmt::format("d_c at drag factor {}", factor), other.diameter / usual.diameter, 1, 0.05);
     expect_near(fmt::format("contacts at drag factor {}", factor), other.contacts / usual.contacts, 1,
-                0.01 + errors * 0.06);
+                long_version() ? 0.06 : 0.11);
   }
 }
+
 }  // namespace
