@@ -163,13 +163,13 @@ class Program(unittest.TestCase):
     def test_streams_may_be_closed(self):
         for streams in ((1, 2), (0, 1, 2), (0,), (2,)):
             close = lambda: [os.close(k) for k in streams]
+            silent = {"capture_output": False, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
             for _, command, output in self.each():
-                ran = self.run_it(*command, preexec_fn=close, capture_output=False)
+                ran = self.run_it(*command, preexec_fn=close, **silent)
                 self.assertEqual(ran.returncode, 0)
                 if output.suffix == ".h5":
-                    self.assertEqual(self.run_it("agglomerate", "check", output, preexec_fn=close,
-                                                 capture_output=False).returncode, 0)
-            ran = self.run_it(*self.commands()["rigidstress"], "--check", preexec_fn=close, capture_output=False)
+                    self.assertEqual(self.run_it("agglomerate", "check", output, preexec_fn=close, **silent).returncode, 0)
+            ran = self.run_it(*self.commands()["rigidstress"], "--check", preexec_fn=close, **silent)
             self.assertEqual(ran.returncode, 0)
 
     def test_a_folder_that_may_not_be_written_to_is_known_before_the_start(self):
