@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "common/hydro/linear_flow.hpp"
+#include "common/io/plausible.hpp"
 
 namespace crumble {
 
@@ -145,6 +146,7 @@ Rung rung_named(const std::string& name) {
 
 BreakerScene breaker_scene(const Scene& scene) {
   BreakerScene s;
+  require_radius(scene, "particle.radius");
   if (scene.is_set("particle.radius")) s.radius = scene.real("particle.radius");
   s.keep_contacts = scene.choice("particle.contacts") == "keep";
   if (s.keep_contacts && s.radius)

@@ -9,6 +9,7 @@
 #include "common/agglomerate/fragments.hpp"
 #include "common/agglomerate/morphology.hpp"
 #include "common/contact/bond_laws.hpp"
+#include "common/contact/small_contact.hpp"
 #include "common/io/errors.hpp"
 
 namespace crumble {
@@ -75,6 +76,9 @@ Start make_start(Agglomerate agglomerate, const std::string& name, const Breaker
   if (particles.size() == 0) throw InputError(name + ": there are no particles");
   if (scene.radius) start.scale = *scene.radius / mean_radius(particles);
   if (start.scale != 1) scale(start.agglomerate, start.scale);
+  const double smallest = *std::min_element(particles.radius.begin(), particles.radius.end());
+  if (const auto wrong = outside_contact_theory(scene.model.material, smallest); !wrong.empty())
+    throw InputError("material.youngs_modulus " + wrong);
   if (!scene.keep_contacts) {
     refuse_open_contacts(start.agglomerate, name, scene.largest_gap);
     Closed closed = close_all_contacts(particles, frame, scene.model.material, start.made);

@@ -7,9 +7,12 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "common/contact/small_contact.hpp"
 #include "common/io/number_list.hpp"
+#include "common/io/plausible.hpp"
 #include "dryer/inertial.hpp"
 #include "dryer/process_inputs.hpp"
+#include "dryer/softening.hpp"
 
 namespace crumble {
 
@@ -55,6 +58,9 @@ IntegratorKind integrator_kind(const Scene& scene, const DryingModel& model) {
 }  // namespace
 
 DryingScene drying_scene(const Scene& scene, const Machine& machine) {
+  require_radius(scene, "particle.radius");
+  require_radius(scene, "particle.second_radius");
+  require_temperature(scene, "liquid.temperature");
   const ProcessInputs process = process_inputs(scene, machine);
   DryingScene s;
   s.nominal_radius = scene.real("particle.radius");
@@ -69,6 +75,9 @@ DryingScene drying_scene(const Scene& scene, const Machine& machine) {
   s.contact_angle = process.contact_angle;
   ContactChoice& c = s.model.contact;
   c.normal = scene.choice("contact.law") == "jkr" ? NormalLaw::jkr : NormalLaw::cundall_strack;
+  if (const auto wrong = outside_contact_theory(s.model.material, s.smallest_radius());
+      c.normal == NormalLaw::jkr && !wrong.empty())
+    throw scene.error("material.youngs_modulus", wrong);
   c.stiffness_factor = scene.real("contact.stiffness_factor");
   c.friction = scene.real("contact.friction");
   c.sliding_limit_factor = scene.real("contact.sliding_limit_factor");
@@ -86,6 +95,8 @@ DryingScene drying_scene(const Scene& scene, const Machine& machine) {
   s.frames = frames(scene);
   // With noise the paths of two step lengths part; the error is one of means over many seeds.
   s.estimate_error = scene.flag("error.estimate") && s.model.thermal_energy == 0;
+
+  if (!can_be_softened(s, s.softening)) s.softening = 1;
 
   if (s.is(IntegratorKind::inertial)) {
     const double a = s.smallest_radius();

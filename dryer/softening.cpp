@@ -16,7 +16,8 @@ bool bonds_are_brief(const DryingScene& scene) {
   return pair_statistics(Jkr(scene.model.material, a), kT, 2 * D).lifetime < 0.01 * a * a / D;
 }
 
-// A bond worth hardly more than kT cannot be much wider without holding pairs more.
+}  // namespace
+
 bool can_be_softened(const DryingScene& scene, double factor) {
   try {
     softened_model(scene, factor);
@@ -25,8 +26,6 @@ bool can_be_softened(const DryingScene& scene, double factor) {
     return false;
   }
 }
-
-}  // namespace
 
 std::vector<SofteningStage> softening_stages(const DryingScene& scene) {
   const int depth = scene.brownian.depth;

@@ -23,6 +23,9 @@ struct SofteningStage {
 // contact holds a pair as tightly, the contacts are the material's own from the beginning.
 std::vector<SofteningStage> softening_stages(const DryingScene& scene);
 
+// A bond worth hardly more than kT, of small particles or a stiff material, cannot be wider without holding pairs more.
+bool can_be_softened(const DryingScene& scene, double softening);
+
 // What the integrator is given: the scene's model, with its contacts softened if particles diffuse.
 DryingModel softened_model(const DryingScene& scene, double softening);
 

@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <optional>
 #include <sstream>
 #include <string_view>
 
@@ -36,19 +39,52 @@ std::string unit_of(std::string_view name) {
   return std::string(trimmed(name.substr(open + 1, close - open - 1)));
 }
 
-void check_header(const std::vector<std::string_view>& names, const std::string& where) {
+// What a column is by its name: 0 the time, 1 to 9 the components of the gradient, row by row; -1 no such name.
+// "dux/dy", "du_x/dy", "ux_y", "uxy" and, of the velocity u, v, w, "du/dy" and "uy" are all du_x/dy.
+int column_named(std::string_view name) {
+  std::string letters;
+  for (const char c : name.substr(0, name.find('[')))
+    if (const char low = static_cast<char>(std::tolower(static_cast<unsigned char>(c))); std::isalnum(low))
+      letters += low;
+  if (letters == "t" || letters == "time") return 0;
+  std::erase(letters, 'd');
+  if (letters.size() == 3 && letters[0] == 'u') letters.erase(0, 1);
+  constexpr std::string_view axes = "xyz", velocities = "uvw";
+  if (letters.size() != 2) return -1;
+  const bool by_axis = name.find_first_of("uU") != name.npos && axes.find(letters[0]) != axes.npos;
+  const auto i = by_axis ? axes.find(letters[0]) : velocities.find(letters[0]), j = axes.find(letters[1]);
+  return i == axes.npos || j == axes.npos ? -1 : static_cast<int>(1 + 3 * i + j);
+}
+
+using Columns = std::array<std::size_t, 10>;  // where the time and the components stand
+
+Columns read_header(const std::vector<std::string_view>& names, const std::string& where) {
   if (names.size() != 10)
     throw InputError(
         fmt::format("{}: the header has {} columns, ten are needed: time [s] and nine components of the "
                     "velocity gradient [1/s]",
                     where, names.size()));
+  Columns columns;
+  columns.fill(names.size());
   for (std::size_t k = 0; k < 10; ++k) {
-    const std::string unit = unit_of(names[k]);
-    const bool right = k == 0 ? unit == "s" : unit == "1/s" || unit == "s-1" || unit == "s^-1";
-    if (!right)
+    const int column = column_named(names[k]);
+    if (column < 0)
       throw InputError(
-          fmt::format("{}: column {} '{}' must carry its unit, {}", where, k + 1, names[k], k == 0 ? "[s]" : "[1/s]"));
+          fmt::format("{}: column {} '{}' is neither the time, t [s], nor a component of the velocity "
+                      "gradient: dux/dx [1/s], dux/dy [1/s], ... duz/dz [1/s]",
+                      where, k + 1, names[k]));
+    const std::string unit = unit_of(names[k]);
+    const bool right = column == 0 ? unit == "s" : unit == "1/s" || unit == "s-1" || unit == "s^-1";
+    if (!right)
+      throw InputError(fmt::format("{}: column {} '{}' must carry its unit, {}", where, k + 1, names[k],
+                                   column == 0 ? "[s]" : "[1/s]"));
+    std::size_t& place = columns[static_cast<std::size_t>(column)];
+    if (place < names.size())
+      throw InputError(fmt::format("{}: columns {} '{}' and {} '{}' are the same component", where, place + 1,
+                                   names[place], k + 1, names[k]));
+    place = k;
   }
+  return columns;
 }
 
 double rate_of(const Eigen::Matrix3d& gradient) {
@@ -61,7 +97,7 @@ struct Row {
   Eigen::Matrix3d gradient;
 };
 
-Row parse_row(const std::vector<std::string_view>& texts, const std::string& where) {
+Row parse_row(const std::vector<std::string_view>& texts, const Columns& columns, const std::string& where) {
   if (texts.size() != 10) throw InputError(fmt::format("{}: {} columns, ten are needed", where, texts.size()));
   double value[10];
   for (std::size_t k = 0; k < 10; ++k) {
@@ -69,13 +105,13 @@ Row parse_row(const std::vector<std::string_view>& texts, const std::string& whe
     if (error != std::errc{} || end != texts[k].data() + texts[k].size() || !std::isfinite(value[k]))
       throw InputError(fmt::format("{}: column {}: '{}' is not a finite number", where, k + 1, texts[k]));
   }
-  Row row{value[0], {}};
-  for (int k = 0; k < 9; ++k) row.gradient(k / 3, k % 3) = value[k + 1];
+  Row row{value[columns[0]], {}};
+  for (int k = 0; k < 9; ++k) row.gradient(k / 3, k % 3) = value[columns[static_cast<std::size_t>(k) + 1]];
   const double trace = row.gradient.trace(), size = row.gradient.norm();
   if (std::abs(trace) > 0.01 * size)
     throw InputError(
         fmt::format("{}: the trace of the velocity gradient is {:.3g} 1/s, {:.2g} of its norm: the fluid is "
-                    "incompressible, it must vanish (are the nine components in the order of the header?)",
+                    "incompressible, it must vanish (do the names of the columns fit the numbers?)",
                     where, trace, std::abs(trace) / size));
   row.gradient.diagonal().array() -= trace / 3;
   return row;
@@ -96,17 +132,16 @@ GradientHistory GradientHistory::parse(const std::string& text, const std::strin
   std::vector<int> line_of;
   std::istringstream in(text);
   std::string line;
-  bool header = false;
+  std::optional<Columns> columns;
   for (int number = 1; std::getline(in, line); ++number) {
     const auto content = trimmed(line);
     if (content.empty() || content[0] == '#') continue;
     const std::string where = fmt::format("{}:{}", name, number);
-    if (!header) {
-      check_header(fields(line), where);
-      header = true;
+    if (!columns) {
+      columns = read_header(fields(line), where);
       continue;
     }
-    const Row row = parse_row(fields(line), where);
+    const Row row = parse_row(fields(line), *columns, where);
     if (!history.time_.empty() && row.time <= history.time_.back())
       throw InputError(fmt::format("{}: time {:g} s does not follow {:g} s of line {}: times must increase", where,
                                    row.time, history.time_.back(), line_of.back()));

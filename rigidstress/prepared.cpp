@@ -8,6 +8,7 @@
 #include "common/agglomerate/fragments.hpp"
 #include "common/agglomerate/morphology.hpp"
 #include "common/contact/jkr.hpp"
+#include "common/contact/small_contact.hpp"
 #include "common/io/errors.hpp"
 
 namespace crumble {
@@ -56,6 +57,9 @@ Prepared prepare(const Agglomerate& agglomerate, const std::string& name, std::o
   for (double& m : p.particles.mass) m *= p.scale * p.scale * p.scale;
   for (Vector3& x : frame.position) x *= p.scale;
   for (Contact& c : frame.contacts) c.born = 0;
+  const double smallest = *std::min_element(p.particles.radius.begin(), p.particles.radius.end());
+  if (const auto wrong = outside_contact_theory(material, smallest); !wrong.empty())
+    throw InputError("material.youngs_modulus " + wrong);
   refuse_open_contacts(p.particles, frame, name, largest_gap);
 
   Closed closed = close_all_contacts(p.particles, frame, material, p.made);

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "common/io/number_list.hpp"
+#include "common/io/plausible.hpp"
 
 namespace crumble {
 
@@ -129,6 +130,7 @@ std::vector<ReadFile> history_files(const Scene& scene) {
 
 StressScene stress_scene(const Scene& scene) {
   StressScene s;
+  require_radius(scene, "particle.radius");
   if (scene.is_set("particle.radius")) s.radius = scene.real("particle.radius");
   s.material.youngs_modulus = scene.real("material.youngs_modulus");
   s.material.poisson_ratio = scene.real("material.poisson_ratio");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <sstream>
 #include <string>
 
 #include "common/contact/jkr.hpp"
@@ -22,13 +23,19 @@ std::vector<double> radii(const PointList& points, const ImportOptions& options)
   return radius;
 }
 
-// Colloids in the metre range are a forgotten unit.
+// Colloids in the metre range are a forgotten unit, and so are particles smaller than an atom.
 void check_size(const PointList& points, const Frame& frame, const std::vector<double>& radius) {
-  constexpr double largest = 1;  // m
+  constexpr double largest = 1, smallest_radius = 1e-10, largest_radius = 1e-3;  // m
   for (std::size_t i = 0; i < radius.size(); ++i) {
     if (frame.position[i].cwiseAbs().maxCoeff() > largest || radius[i] > largest) {
       throw PointListError(points.file + ":" + std::to_string(points.line[i]) +
                            ": a length is larger than 1 m: check --unit");
+    }
+    if (!(radius[i] >= smallest_radius && radius[i] <= largest_radius)) {
+      std::ostringstream found;
+      found << radius[i];
+      throw PointListError(points.file + ":" + std::to_string(points.line[i]) + ": a radius of " + found.str() +
+                           " m, which no particle of a colloid has: check --unit and --radius");
     }
   }
 }

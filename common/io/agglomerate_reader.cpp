@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "common/io/checker.hpp"
 #include "common/io/in_child.hpp"
 
 namespace crumble {
@@ -71,11 +72,7 @@ AgglomerateReader::AgglomerateReader(const std::filesystem::path& path)
     : AgglomerateReader((in_child(path,
                                   [&] {
                                     const AgglomerateReader reader(path, Unprotected{});
-                                    for (std::size_t t = 0; t < reader.frame_count(); ++t) reader.frame(t);
-                                    for (const auto& name : reader.observable_names())
-                                      if (schema::find("/observables/" + name)) reader.observable(name);
-                                    reader.input();
-                                    reader.resolved();
+                                    require_valid(path);
                                     return std::string();
                                   }),
                          path),
@@ -228,7 +225,7 @@ Agglomerate read_agglomerate(const std::filesystem::path& path, std::optional<st
     const AgglomerateReader reader(path, AgglomerateReader::Unprotected{});
     return Agglomerate{reader.particles(), frame ? reader.frame(*frame) : reader.last_frame()};
   };
-  in_child(path, [&] { return read(), std::string(); });
+  in_child(path, [&] { return read(), require_valid(path), std::string(); });
   return read();
 }
 
@@ -236,7 +233,7 @@ Agglomerate read_agglomerate(const std::filesystem::path& path) { return read_ag
 
 FileInfo read_info(const std::filesystem::path& path) {
   const auto read = [&] { return AgglomerateReader(path, AgglomerateReader::Unprotected{}).info(); };
-  in_child(path, [&] { return read(), std::string(); });
+  in_child(path, [&] { return read(), require_valid(path), std::string(); });
   return read();
 }
 

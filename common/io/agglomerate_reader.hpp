@@ -1,5 +1,5 @@
 // Reads an agglomerate file. Throws OpenError if it cannot be opened and ContentError if it is not what it should be:
-// another version, incomplete, or an array that differs from the schema.
+// another version, incomplete, or anything else that the checker refuses.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@
 
 namespace crumble {
 
-// What a file says about itself; cheap, no array is read but the times.
+// What a file says about itself.
 struct FileInfo {
   int version_major = 0, version_minor = 0;
   std::string stage, state;
@@ -29,7 +29,7 @@ struct FileInfo {
 
 class AgglomerateReader {
  public:
-  // Reads the whole file once in a child process first, lest a damaged one takes the program down (see in_child.hpp).
+  // Checks the whole file in a child process first, lest a damaged one takes the program down (see in_child.hpp).
   explicit AgglomerateReader(const std::filesystem::path& path);
 
   const FileInfo& info() const { return info_; }

@@ -29,7 +29,8 @@ void for_blocks(const hdf5::Dataset& dataset, Use use) {
     if (!use(first * width, dataset.read_rows<T>(first, std::min(step, rows - first)))) return;
 }
 
-// "path[1][3][0]" of the k-th value.
+}  // namespace
+
 std::string place(const std::string& path, hdf5::Shape shape, std::uint64_t k) {
   std::string text;
   for (auto size = shape.rbegin(); size != shape.rend(); ++size) {
@@ -40,6 +41,8 @@ std::string place(const std::string& path, hdf5::Shape shape, std::uint64_t k) {
 }
 
 std::string row(const std::string& path, std::uint64_t k) { return fmt::format("{}[{}]", path, k); }
+
+namespace {
 
 // The first place where a column does not grow, and how many there are.
 template <class T>

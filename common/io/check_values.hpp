@@ -22,6 +22,9 @@ struct Context {
   }
 };
 
+std::string place(const std::string& path, hdf5::Shape shape, std::uint64_t k);  // "path[1][3][0]" of the k-th value
+std::string row(const std::string& path, std::uint64_t k);
+
 void finite(const Context& context, const std::string& path);                            // of a dataset
 void increasing(const Context& context, const std::string& group);                       // its step and time
 void same_instants(const Context& context, const std::string& group);                    // as the positions have
@@ -29,5 +32,10 @@ void unit_length(const Context& context, const std::string& path, std::uint64_t 
 void particles(const Context& context);
 void contacts(const Context& context);
 void parent(const Context& context, const std::filesystem::path& file);
+
+// What the numbers mean, for files in which all of the above holds.
+void ranges(const Context& context);   // of each array by itself
+void frames(const Context& context);   // positions, contacts and what follows from them
+void results(const Context& context);  // events, morphology, response and flows
 
 }  // namespace crumble::check

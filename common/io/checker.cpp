@@ -23,7 +23,8 @@ const std::string module_path = "/h5md/modules/agglomerate";
 
 class Checker {
  public:
-  explicit Checker(const std::filesystem::path& path) : path_(path), file_(hdf5::File::open(path)) {}
+  Checker(const std::filesystem::path& path, bool looks_at_parent)
+      : path_(path), file_(hdf5::File::open(path)), looks_at_parent_(looks_at_parent) {}
 
   std::vector<Violation> run() {
     if (!version_is_ours()) return violations_;
@@ -156,6 +157,8 @@ class Checker {
     guarded("/particles/all/box", [&] { exactly("/particles/all/box@dimension", 3); });
     if (sound_.contains("/particles/all/position") && sizes_.of("T") == 0)
       violations_.push_back({"/particles/all/position", "a frame", "none"});
+    if (sound_.contains("/particles/all/radius") && sizes_.of("N") == 0)
+      violations_.push_back({"/particles/all/radius", "a particle", "none"});
     for (const auto& [entry, path] : entries_) {
       const bool timed = entry->layout == Layout::frames || entry->layout == Layout::samples;
       if (!timed && entry->layout != Layout::dataset) continue;
@@ -163,7 +166,11 @@ class Checker {
     }
     guarded("/particles/all", [&] { check::particles(context); });
     guarded("/contacts", [&] { check::contacts(context); });
-    guarded("/parameters/provenance", [&] { check::parent(context, path_); });
+    guarded("/", [&] { check::ranges(context); });
+    // Numbers that are no numbers, or of no particle, mean nothing.
+    if (violations_.empty()) guarded("/contacts", [&] { check::frames(context); });
+    if (violations_.empty()) guarded("/", [&] { check::results(context); });
+    if (looks_at_parent_) guarded("/parameters/provenance", [&] { check::parent(context, path_); });
   }
 
   void of_array(const check::Context& context, const Entry& entry, const std::string& path, bool timed) {
@@ -183,6 +190,7 @@ class Checker {
 
   std::filesystem::path path_;
   hdf5::File file_;
+  bool looks_at_parent_;
   schema::Sizes sizes_;
   unsigned required_ = schema::all;
   std::set<std::string> sound_;
@@ -217,9 +225,16 @@ std::vector<Violation> unpacked(std::string_view text) {
 
 }  // namespace
 
+void require_valid(const std::filesystem::path& path) {
+  const auto violations = Checker(path, false).run();
+  if (violations.empty()) return;
+  const std::string more = violations.size() > 1 ? fmt::format(" (and {} more)", violations.size() - 1) : "";
+  throw ContentError(path.string() + ": " + violations.front().text() + more);
+}
+
 std::vector<Violation> check_file(const std::filesystem::path& path) {
   try {
-    return unpacked(in_child(path, [&] { return packed(Checker(path).run()); }));
+    return unpacked(in_child(path, [&] { return packed(Checker(path, true).run()); }));
   } catch (const ContentError& error) {
     return {{"/", "a file that can be read", error.what()}};
   }

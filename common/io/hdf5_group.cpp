@@ -156,9 +156,11 @@ File File::create(const std::filesystem::path& path) {
   const Handle access = file_access();
   File file;
   file.file_ = path.string();
-  file.handle_ = Handle(checked<OpenError>(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()),
-                                           file.file_, "cannot create the file"),
-                        H5Fclose);
+  errno = 0;
+  const Id id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get());
+  const bool is_full = id < 0 && (errno == ENOSPC || errno == EDQUOT || errno == EFBIG || errno == EIO);
+  if (is_full) checked<WriteError>(id, file.file_, "cannot create the file");
+  file.handle_ = Handle(checked<OpenError>(id, file.file_, "cannot create the file"), H5Fclose);
   return file;
 }
 

@@ -71,6 +71,17 @@ bool is_the_file(int descriptor, const std::filesystem::path& name) {
          ours.st_ino == there.st_ino;
 }
 
+// The error, or 0.
+int write_anew(int descriptor, const std::string& text) {
+  if (ftruncate(descriptor, 0) != 0) return errno;
+  for (std::size_t done = 0; done < text.size();) {
+    const auto count = pwrite(descriptor, text.data() + done, text.size() - done, static_cast<off_t>(done));
+    if (count < 0 && errno != EINTR) return errno;
+    if (count > 0) done += static_cast<std::size_t>(count);
+  }
+  return 0;
+}
+
 std::string reason(int error) { return std::generic_category().message(error); }
 
 }  // namespace
@@ -143,10 +154,7 @@ OutputLock::OutputLock(const std::filesystem::path& output) {
     break;
   }
   const std::string text = LockOwner::of_this_process().text();
-  const bool written = ftruncate(descriptor_, 0) == 0 &&
-                       pwrite(descriptor_, text.data(), text.size(), 0) == static_cast<ssize_t>(text.size());
-  if (!written) {
-    const int error = errno;
+  if (const int error = write_anew(descriptor_, text)) {
     unlink(file_.c_str());
     refuse("cannot be written: " + file_.string() + ": " + reason(error));
   }

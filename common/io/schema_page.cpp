@@ -66,6 +66,13 @@ length of its own.
 **Versions.** A program reads files of its own major version whose minor version is not newer than its own. An addition
 raises the minor number, a changed meaning the major one.
 
+**Valid.** The checker refuses, and so by the same rules does every program that reads a file, what differs from this table and
+what has no meaning: two particles at one place, a gap or normal that is not that of the positions, a contact open by more than a
+radius, a force below that of a smaller gap (JKR; one rising function for all pairs), displacements along the normal, masses and
+radii of no colloid, observables, labels and radial positions that do not follow from positions and contacts, events, pairs and
+fragments of particles that are not there, gradients of a compressible flow. What a program writes has passed the same rules
+before it gets its name. A parent that has changed since is a violation to the checker alone.
+
 **Complete.** A program writes NAME.tmp, sets `complete` to 1, closes the file and renames it. A file whose `complete`
 is 0 is not a result.
 

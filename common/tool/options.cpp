@@ -10,6 +10,7 @@
 
 #include "common/io/errors.hpp"
 #include "common/io/parameters.hpp"
+#include "common/io/plausible.hpp"
 #include "common/io/provenance.hpp"
 
 namespace crumble::tool {
@@ -203,6 +204,8 @@ Options interpret(const std::string& verb, const Raw& raw) {
   }
   if (verb == "scale") {
     const double radius = 1e-9 * number(verb, "--radius", raw.radius, 0, true);
+    if (const std::string wrong = radius_complaint(radius); !wrong.empty())
+      throw misuse(verb, "--radius " + raw.radius + " nm: " + wrong);
     return ScaleOptions{file, raw.output, radius, material_of(verb, raw)};
   }
   ImportFileOptions import{file, raw.output, {}};

@@ -1,10 +1,12 @@
 // A small agglomerate with every field set to something that cannot be mistaken for another, and a file of it.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <string>
 
+#include "common/contact/material.hpp"
 #include "common/io/agglomerate_writer.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -21,8 +23,10 @@ inline Particles sample_particles(std::size_t n) {
   return particles;
 }
 
-// A zigzag chain cut in two between particles n/3 and n/3 + 1, all else random but reproducible.
+// A zigzag chain cut in two between particles n/3 and n/3 + 1: gaps are those of the positions, forces rise with them
+// as by JKR, displacements are across the normals, all else random but reproducible.
 inline Frame sample_frame(std::size_t n, std::int64_t step) {
+  const auto radius = sample_particles(n).radius;
   std::mt19937_64 random(static_cast<std::uint64_t>(step));
   const auto number = [&] { return static_cast<double>(random() >> 11) * 0x1p-53 - 0.5; };
   const auto vector = [&](double scale) { return Vector3(scale * number(), scale * number(), scale * number()); };
@@ -42,17 +46,23 @@ inline Frame sample_frame(std::size_t n, std::int64_t step) {
     Contact c;
     c.i = static_cast<std::int32_t>(k);
     c.j = c.i + 1;
-    c.normal = (frame.position[k + 1] - frame.position[k]).normalized();
-    c.gap = 1e-10 * number();
-    c.sliding = vector(1e-10);
-    c.rolling = vector(1e-2);
+    const Vector3 line = frame.position[k + 1] - frame.position[k];
+    const double a = pair_radius(radius[k], radius[k + 1]);
+    c.normal = line.normalized();
+    const auto across = [&](double scale) {
+      const Vector3 any = vector(scale);
+      return Vector3(any - any.dot(c.normal) * c.normal);
+    };
+    c.gap = line.norm() - radius[k] - radius[k + 1];
+    c.sliding = across(1e-10);
+    c.rolling = across(1e-2);
     c.twisting = 1e-2 * number();
-    c.normal_force = 1e-9 * number();
-    c.sliding_force = vector(1e-9);
+    c.normal_force = a * std::tanh(1e6 * c.gap / std::cbrt(a));
+    c.sliding_force = across(1e-9);
     c.twisting_torque = 1e-18 * number();
-    c.rolling_torque = vector(1e-18);
+    c.rolling_torque = across(1e-18);
     c.at_limit = static_cast<std::uint8_t>(random() % 8);
-    c.born = step - static_cast<std::int64_t>(k);
+    c.born = std::max<std::int64_t>(0, step - static_cast<std::int64_t>(k));
     frame.contacts.push_back(c);
   }
   return frame;

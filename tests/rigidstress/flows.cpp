@@ -145,6 +145,26 @@ TEST(History, InterpolatesBetweenRows) {
   EXPECT_NEAR(h(1)(0, 1), 4, 0);
 }
 
+// The same flow, whatever the order of its columns.
+TEST(History, ColumnsAreFoundByTheirNames) {
+  const std::string header =
+      "du_y/dx [1/s],duz/dx [1/s],t [s],duX/dy [1/s],ux_x [1/s],vy [1/s],dwdy [1/s],"
+      "uz_z [s-1],dux/dz [1/s],\"duy / dz [s^-1]\"\n";
+  const GradientHistory h =
+      GradientHistory::parse(header + "21,31,0,12,1,2,32,-3,13,23\n21,31,0.001,12,1,2,32,-3,13,23\n", "f");
+  Eigen::Matrix3d expected;
+  expected << 1, 12, 13, 21, 2, 23, 31, 32, -3;
+  EXPECT_EQ(h(0), expected);
+  const std::string rows = "0,0,1,0,0,0,0,0,0,0\n0.1,0,1,0,0,0,0,0,0,0\n";
+  std::string twice = history_text(rows);
+  twice.replace(twice.find("ux_y"), 4, "ux_x");
+  EXPECT_NE(refusal(twice).find("columns 2 'ux_x [1/s]' and 3 'ux_x [1/s]' are the same component"), std::string::npos)
+      << refusal(twice);
+  std::string unknown = history_text(rows);
+  unknown.replace(unknown.find("uz_y"), 4, "xy");  // of which index is which, nobody agrees
+  EXPECT_NE(refusal(unknown).find("column 9 'xy [1/s]' is neither the time"), std::string::npos) << refusal(unknown);
+}
+
 TEST(History, RefusesWhatCannotBeAVelocityGradientInTime) {
   const std::string good = "0,0,1,0,0,0,0,0,0,0\n0.1,0,1,0,0,0,0,0,0,0\n";
   EXPECT_EQ(refusal(history_text(good)), "");
