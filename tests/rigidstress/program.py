@@ -178,6 +178,13 @@ class Program(unittest.TestCase):
         with h5py.File(out, "r+") as file:
             file["particles/all/position/value"][0, 2, 0] += 100
             file["contacts/gap"][1] += 100
+            # What follows from the positions goes with them, else the file would not be read at all.
+            x = file["particles/all/position/value"][0, :, 0]
+            x = x - x.mean()
+            square = (x**2).mean()
+            file["observables/radius_of_gyration/value"][0] = square**0.5
+            file["observables/semi_axes/value"][0] = [(5 * square + 100**2) ** 0.5, 100, 100]
+            file["morphology/radial_position"][:] = sorted(abs(x))
         run = self.refused(out)
         self.assertEqual(run.returncode, 2)
         self.assertIn("contact 1-2", run.stderr)
