@@ -27,19 +27,20 @@ std::string refusal(const std::filesystem::path& path, const CheckpointOwner& ot
 
 TEST(Checkpoint, ComesBackToTheBit) {
   const Folder folder;
-  Checkpoint saved;
+  SavedState saved;
   saved.reals["odd"] = {0.1, -0.0, 5e-324, std::numeric_limits<double>::max(), 1 / 3.0, NAN, -INFINITY};
   saved.reals["none"] = {};
   saved.integers["counts"] = {0, -1, INT64_MAX, INT64_MIN};
   save_checkpoint(folder / "a.h5.checkpoint", owner, saved);
   EXPECT_FALSE(std::filesystem::exists(folder / "a.h5.checkpoint.tmp"));
-  const Checkpoint loaded = load_checkpoint(folder / "a.h5.checkpoint", owner);
-  ASSERT_EQ(loaded.real("odd").size(), saved.reals["odd"].size());
-  for (std::size_t k = 0; k < loaded.real("odd").size(); ++k)
-    EXPECT_EQ(std::bit_cast<std::uint64_t>(loaded.real("odd")[k]), std::bit_cast<std::uint64_t>(saved.reals["odd"][k]));
-  EXPECT_TRUE(loaded.real("none").empty());
-  EXPECT_EQ(loaded.integer("counts"), saved.integers["counts"]);
-  EXPECT_THROW(loaded.real("counts"), ContentError);
+  const SavedState loaded = load_checkpoint(folder / "a.h5.checkpoint", owner);
+  ASSERT_EQ(loaded.reals.at("odd").size(), saved.reals["odd"].size());
+  for (std::size_t k = 0; k < loaded.reals.at("odd").size(); ++k)
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(loaded.reals.at("odd")[k]),
+              std::bit_cast<std::uint64_t>(saved.reals["odd"][k]));
+  EXPECT_TRUE(loaded.reals.at("none").empty());
+  EXPECT_EQ(loaded.integers.at("counts"), saved.integers["counts"]);
+  EXPECT_FALSE(loaded.reals.contains("counts"));
 }
 
 TEST(Checkpoint, OfAnotherProgramVersionOrSceneIsRefusedByName) {
