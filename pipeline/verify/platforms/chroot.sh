@@ -36,7 +36,7 @@ make_system() {
 # fresh_clone PATH: the last commit of this tree, in the system.
 fresh_clone() {
   rm -rf "${folder:?}$1"
-  git clone -q "$top" "$folder$1"
+  git clone -q --no-hardlinks "$top" "$folder$1"
 }
 
 # in_system COMMAND...: as root in the system, with nothing of this environment. The mounts end with the command.

@@ -16,7 +16,7 @@ while read -r word rest <&3; do
       mkdir -p "$target"
       for name in "${names[@]::${#names[@]}-1}"; do
         # A file goes into the folder, of a folder what is in it.
-        if [[ -d $folder/context/$name ]]; then cp -rT "$folder/context/$name" "$target"; else cp "$folder/context/$name" "$target"; fi
+        if [[ -d $folder/context/$name ]]; then rm -rf "$target" && cp -r "$folder/context/$name" "$target"; else cp "$folder/context/$name" "$target"; fi
       done
       ;;
     RUN) step "run-$((++number))" env "${environment[@]}" sh -c "cd $place && $rest" ;;
