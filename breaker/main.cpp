@@ -9,9 +9,10 @@
 #include "breaker/breakup_checkpoint.hpp"
 #include "breaker/companion.hpp"
 #include "breaker/result.hpp"
-#include "common/io/agglomerate_reader.hpp"
+#include "common/agglomerate/morphology.hpp"
 #include "common/io/command_line.hpp"
 #include "common/io/errors.hpp"
+#include "common/io/granule.hpp"
 #include "common/io/interrupt.hpp"
 #include "common/io/output_lock.hpp"
 #include "common/io/program.hpp"
@@ -88,6 +89,7 @@ struct Job {
   const CommandLine& line;
   const Scene& text;
   const BreakerScene& scene;
+  const Parent& parent;
   const Start& start;
   const Provenance& provenance;
   BreakupCheckpoint& checkpoint;
@@ -124,6 +126,7 @@ bool break_once(const Job& job, Progression& p, bool goes_on, bool beside) {
     put_frame(writer, run, scene, p);
   }
   write_rest(writer, run, scene, job.start);
+  write_properties(writer, properties_of(job.text, job.parent.properties));
   writer.finish(run.breakup().severed ? "broken" : "relaxed");
   job.checkpoint.remove();
   fill_report(job.report, scene, job.start, run, p.companion);
@@ -137,16 +140,22 @@ int break_up(int argc, const char* const* argv) {
     deliver(*line.answer);
     return 0;
   }
-  const Scene text = Scene::read(line.scene, breaker_parameters(), line.overrides);
-  const BreakerScene scene = breaker_scene(text);
+  Scene text = Scene::read(line.scene, breaker_parameters(), line.overrides);
   const std::string input = line.inputs.front();
+  Agglomerate agglomerate = read_agglomerate(input);
+  const Parent parent{input, read_info(input).properties, mean_radius(agglomerate.particles)};
+  inherit(text, parent);
+  BreakerScene scene = breaker_scene(text);
   const int threads = line.threads > 0 ? line.threads : omp_get_max_threads();
   omp_set_num_threads(1);  // beside each other the run and its companion use two cores
   const Provenance provenance = make_provenance("breaker", {argv, argv + argc}, 0, "none", input);
   Report report("breaker", provenance.version, line.scene, std::nullopt);
   ProgressPrinter progress(stderr, line.check ? line.scene : std::filesystem::path(line.output).stem().string(),
                            line.quiet);
-  const Start start = make_start(read_agglomerate(input), input, scene);
+  progress.say(granule_line(text, parent));
+  report_inputs(report, text, parent);
+  const Start start = make_start(std::move(agglomerate), input, scene);
+  adapt(scene, start.rigid_strength);
   for (const std::string& fact : describe(scene, start)) progress.say(fact);
   if (line.check) {
     const BreakupRun builds(scene, start.agglomerate, 1);
@@ -160,7 +169,7 @@ int break_up(int argc, const char* const* argv) {
   if (checkpoint.found()) progress.say("resuming from " + checkpoint.path());
   Progression p = checkpoint.found() ? checkpoint.progression() : Progression{};
   report.add_earlier(checkpoint.used());
-  const Job job{line, text, scene, start, provenance, checkpoint, progress, report};
+  const Job job{line, text, scene, parent, start, provenance, checkpoint, progress, report};
   bool goes_on = checkpoint.found();
   while (!break_once(job, p, goes_on, threads > 1)) goes_on = false;
   return 0;

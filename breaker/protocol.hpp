@@ -2,7 +2,7 @@
 #pragma once
 
 #include <limits>
-#include <string>
+#include <utility>
 #include <vector>
 
 namespace crumble {
@@ -16,11 +16,6 @@ class Protocol {
  public:
   Protocol() = default;
   explicit Protocol(std::vector<Stage> stages) : stages_(std::move(stages)) {}
-
-  // "rest 0.1; hold 2 for 0.1; ramp 5000": times in s, stresses in Pa, rates in Pa/s, each at a viscosity of 1 Pa s.
-  // A ramp starts at 0 Pa unless it says `ramp 5000 from 100`, and ends with the run unless it says `to 3000`. Times
-  // are multiplied by `stretch` and rates divided. Throws std::invalid_argument saying what was not understood.
-  static Protocol parse(const std::string& text, double stretch = 1);
 
   double stress(double time) const;         // Pa, at a boundary that of the later stage
   double stress_before(double time) const;  // at a boundary that of the earlier stage

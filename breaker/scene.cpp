@@ -3,82 +3,104 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <stdexcept>
+#include <string>
 
-#include "common/hydro/linear_flow.hpp"
 #include "common/io/plausible.hpp"
+#include "common/io/shared_parameters.hpp"
 
 namespace crumble {
 
+namespace {
+
+using P = Parameter;
+
+Section particle() {
+  Section section{"particle",
+                  "The primary particles.",
+                  agglomerate_parameters({"refuse", "largest"},
+                                         "An agglomerate in several pieces: refuse it, or take the largest piece alone")};
+  section.parameters.push_back(
+      P::choice("contacts", {"close", "keep"},
+                "close: all listed contacts start at the gap free of force and without history; keep: gaps and "
+                "histories of the file go on, as after an earlier breakup (no scaling)")
+          .by_default("close"));
+  return section;
+}
+
+Protocol protocol_in(const Scene& scene, double stretch) {
+  std::vector<Stage> stages;
+  for (std::size_t k = 0; k < scene.count("protocol.stage"); ++k) {
+    const std::string place = fmt::format("protocol.stage[{}].", k);
+    const std::string& kind = scene.choice(place + "kind");
+    const auto needed = [&](const char* key) {
+      if (!scene.is_set(place + key)) throw scene.error(place + "kind", fmt::format("needs '{}'", key));
+      return scene.real(place + key);
+    };
+    for (const char* key : {"duration", "stress", "rate", "from", "to"}) {
+      const bool of_ramp = key == std::string("rate") || key == std::string("from") || key == std::string("to");
+      if (scene.is_set(place + key) && (of_ramp != (kind == "ramp") || (kind == "rest" && key == std::string("stress"))))
+        throw scene.error(place + key, "has no meaning where kind = \"" + kind + "\"");
+    }
+    if (!stages.empty() && std::isinf(stages.back().duration))
+      throw scene.error(place + "kind", "nothing can follow a ramp without 'to', which goes on until the run ends");
+    if (kind == "ramp") {
+      Stage ramp{scene.is_set(place + "from") ? scene.real(place + "from") : 0, needed("rate") / stretch};
+      if (scene.is_set(place + "to")) {
+        const double end = scene.real(place + "to");
+        if (end <= ramp.stress) throw scene.error(place + "to", "is at or below the stress where the ramp starts");
+        ramp.duration = (end - ramp.stress) / ramp.rate;
+      }
+      stages.push_back(ramp);
+    } else {
+      stages.push_back({kind == "hold" ? needed("stress") : 0, 0, stretch * needed("duration")});
+    }
+  }
+  return Protocol(std::move(stages));
+}
+
+}  // namespace
+
 const ParameterTable& breaker_parameters() {
-  using P = Parameter;
   static const ParameterTable table{
-      {"particle",
-       "The primary particles.",
-       {P::real("radius", "m",
-                "Mean radius a to which the agglomerate is scaled (the paper dries at 10 nm and breaks at 100 nm); "
-                "without it the file's own")
-            .above(0)
-            .optional(),
-        P::choice("contacts", {"close", "keep"},
-                  "close: all listed contacts start at the gap free of force and without history; keep: gaps and "
-                  "histories of the file go on, as after an earlier breakup (no scaling)")
-            .by_default("close"),
-        P::choice("fragments", {"refuse", "largest"},
-                  "An agglomerate in several pieces: refuse it, or take the largest piece alone")
-            .by_default("refuse"),
-        P::real("largest_gap", "", "A listed contact whose surfaces are farther apart is refused, in a")
-            .above(0)
-            .by_default(0.2)}},
-      {"material",
-       "What the particles are made of (paper, Table 1).",
-       {P::real("youngs_modulus", "Pa", "Elastic modulus E").above(0).by_default(3.4e9),
-        P::real("poisson_ratio", "", "Poisson ratio nu").above(-1).at_most(0.5).by_default(0.5),
-        P::real("surface_energy", "J m-2", "Superficial energy gamma_s of one surface").above(0).by_default(4.8e-3)}},
-      {"contact",
-       "The bond between two particles. A limit factor multiplies the critical load of the paper's equation: 0 takes "
-       "the resistance away, 1e6 makes it elastic without limit in practice.",
-       {P::real("sliding_limit_factor", "", "Of the critical sliding force (Eq. 14)").at_least(0).by_default(1),
-        P::real("twisting_limit_factor", "", "Of the critical twisting torque (Eq. 17)").at_least(0).by_default(1),
-        P::real("rolling_limit_factor", "", "Of the critical rolling torque (Eqs. 20-21)").at_least(0).by_default(1),
-        P::real("rolling_stiffness_factor", "", "Of the rolling stiffness k_r (Eq. 20); the critical torque stays")
-            .above(0)
-            .by_default(1)}},
-      {"fluid",
-       "The fluid around the agglomerate.",
-       {P::real("viscosity", "Pa s",
-                "Viscosity mu. The paper does not say it; its time step and its alignment by 1000 Pa imply about 1")
-            .above(0)
-            .by_default(1)}},
-      {"hydrodynamics",
-       "How the spheres act on each other through the fluid.",
-       {P::choice("method", {"fts", "fts-lubrication", "fts-relative-lubrication"},
-                  "Far field; with pair lubrication as in Eq. 9; with pair lubrication on relative motion only")
-            .by_default("fts-relative-lubrication"),
-        P::real("lubrication_range", "", "Pairs of centres closer than this, in mean radii").above(2).by_default(2.5),
-        P::real("gap_floor", "",
-                "Closer pairs, all contacts among them, are lubricated as at this gap, in a; their centres are "
-                "taken apart to it, so that rigid motion and uniform strain stay consistent")
-            .above(1e-6)
-            .at_most(0.1)
-            .by_default(1e-3)}},
+      particle(),
+      material_section(),
+      contact_section(),
+      fluid_section(),
+      hydrodynamics_section(
+          {"fts", "fts-lubrication", "fts-relative-lubrication"}, "fts-relative-lubrication",
+          "Far field; with pair lubrication as in Eq. 9; with pair lubrication on relative motion only"),
       {"flow",
        "The flow, linear in space.",
-       {P::choice("kind", {"elongation", "shear", "uniaxial", "quiescent"},
+       {P::choice("kind", flow_names(),
                   "Planar elongation du_x/dx = -du_z/dz (paper, 3.3), simple shear u_x(y), uniaxial extension along x, "
-                  "or none")
+                  "biaxial along x and y, or none")
             .by_default("elongation")}},
       {"protocol",
-       "How strong the flow is at which time, as flow stress mu gamma_dot.",
-       {P::text("stages",
-                "Stages in order: 'rest S' and 'hold PA for S' (seconds), 'ramp PA_PER_S [from PA] [to PA]'; a ramp "
-                "without 'to' goes on until breakup. The default is the paper's")
-            .by_default("rest 0.1; hold 2 for 0.1; ramp 5000"),
+       "How strong the flow is at which time, as flow stress mu gamma_dot. Without any [[protocol.stage]] it is one "
+       "ramp from rest that follows from the strength of the agglomerate taken as rigid.",
+       {P::real("strain", "", "Of that ramp, up to the stress at which the rigid agglomerate would break")
+            .above(0)
+            .by_default(500),
         P::flag("scale_with_viscosity",
                 "Take the stages as those for 1 Pa s: multiply times by mu/(1 Pa s) and divide rates, which gives "
                 "the same states at the same stresses for every viscosity")
             .by_default(true),
-        P::real("largest_stress", "Pa", "The run ends here if nothing breaks").above(0).by_default(1e5)}},
+        P::real("largest_stress", "Pa",
+                "The run ends here if nothing breaks; without it twenty times the stress at which the rigid "
+                "agglomerate would break")
+            .above(0)
+            .optional()}},
+      {"protocol.stage",
+       "The stages in order, each from its own [[protocol.stage]].",
+       {P::choice("kind", {"rest", "hold", "ramp"},
+                  "rest: no flow for `duration`; hold: `stress` for `duration`; ramp: `rate` from `from` to `to`"),
+        P::real("duration", "s", "rest, hold: how long").above(0).optional(),
+        P::real("stress", "Pa", "hold: flow stress").at_least(0).optional(),
+        P::real("rate", "Pa s-1", "ramp: growth of the flow stress").above(0).optional(),
+        P::real("from", "Pa", "ramp: where it starts; without it 0").at_least(0).optional(),
+        P::real("to", "Pa", "ramp: where it ends; without it it goes on until breakup").above(0).optional()},
+       true,
+       {"protocol.stages"}},
       {"breakup",
        "When an agglomerate counts as broken.",
        {P::real("reach", "", "A fragment is lost when its surface is farther than this from the rest, in a")
@@ -122,27 +144,14 @@ const ParameterTable& breaker_parameters() {
         P::integer("halvings", "How often at most").at_least(0).at_most(10).by_default(2)}},
       {"output",
        "What the file holds.",
-       {P::real("sample_interval", "Pa", "Between two samples of the dense series").above(0).by_default(5),
-        P::real("frame_interval", "Pa", "Between two frames").above(0).by_default(50)}}};
+       {P::real("sample_interval", "Pa",
+                "Between two samples of the dense series; without it a 200th of the stress at which the rigid "
+                "agglomerate would break")
+            .above(0)
+            .optional(),
+        P::real("frame_interval", "Pa", "Between two frames; without it a 20th of that stress").above(0).optional()}}};
   return table;
 }
-
-namespace {
-
-Eigen::Matrix3d gradient_of(const std::string& kind) {
-  Eigen::Matrix3d g = Eigen::Matrix3d::Zero();
-  if (kind == "elongation") return planar_elongation(1).gradient;
-  if (kind == "shear") g(0, 1) = 1;
-  if (kind == "uniaxial") g.diagonal() = Vector3(1, -0.5, -0.5) / std::sqrt(3.0);
-  return g;
-}
-
-Rung rung_named(const std::string& name) {
-  if (name == "fts") return Rung::fts;
-  return name == "fts-lubrication" ? Rung::fts_lubrication : Rung::fts_relative_lubrication;
-}
-
-}  // namespace
 
 BreakerScene breaker_scene(const Scene& scene) {
   BreakerScene s;
@@ -154,28 +163,18 @@ BreakerScene breaker_scene(const Scene& scene) {
                                                ") scales the agglomerate, which no contact survives");
   s.only_largest = scene.choice("particle.fragments") == "largest";
   s.largest_gap = scene.real("particle.largest_gap");
-  s.model.material.youngs_modulus = scene.real("material.youngs_modulus");
-  s.model.material.poisson_ratio = scene.real("material.poisson_ratio");
-  s.model.material.surface_energy = scene.real("material.surface_energy");
-  ContactChoice& c = s.model.contact;
-  c.sliding_limit_factor = scene.real("contact.sliding_limit_factor");
-  c.twisting_limit_factor = scene.real("contact.twisting_limit_factor");
-  c.rolling_limit_factor = scene.real("contact.rolling_limit_factor");
-  c.rolling_stiffness_factor = scene.real("contact.rolling_stiffness_factor");
+  s.model.material = material_in(scene);
+  s.model.contact = contact_in(scene);
   s.model.viscosity = scene.real("fluid.viscosity");
-  s.model.hydro.rung = rung_named(scene.choice("hydrodynamics.method"));
-  s.model.hydro.lubrication_range = scene.real("hydrodynamics.lubrication_range");
-  s.model.hydro.gap_floor = scene.real("hydrodynamics.gap_floor");
-  const std::string& kind = scene.choice("flow.kind");
-  s.flow = kind == "elongation" ? "elongational" : kind;
-  s.model.gradient = gradient_of(kind);
-  try {
-    s.protocol = Protocol::parse(scene.text("protocol.stages"),
-                                 scene.flag("protocol.scale_with_viscosity") ? s.model.viscosity : 1);
-  } catch (const std::invalid_argument& error) {
-    throw scene.error("protocol.stages", error.what());
-  }
-  s.largest_stress = scene.real("protocol.largest_stress");
+  s.model.hydro = lubrication_in(scene, rung_named(scene.choice("hydrodynamics.method")));
+  s.flow = flow_named(scene.choice("flow.kind"));
+  s.model.gradient = unit_gradient(s.flow);
+  s.ramp_strain = scene.real("protocol.strain");
+  s.protocol = protocol_in(scene, scene.flag("protocol.scale_with_viscosity") ? s.model.viscosity : 1);
+  if (s.protocol.stages().empty() && s.flow == FlowKind::quiescent)
+    throw scene.error("flow.kind", "nothing follows from the strength where nothing flows: say how long in "
+                                   "[[protocol.stage]]");
+  if (scene.is_set("protocol.largest_stress")) s.largest_stress = scene.real("protocol.largest_stress");
   s.reach = scene.real("breakup.reach");
   if (scene.is_set("breakup.lost_particles")) s.lost_particles = scene.integer("breakup.lost_particles");
   s.until_stable = scene.flag("breakup.until_stable");
@@ -194,9 +193,25 @@ BreakerScene breaker_scene(const Scene& scene) {
   s.estimate_error = scene.flag("error.estimate");
   s.accuracy = scene.real("error.accuracy");
   s.halvings = scene.integer("error.halvings");
-  s.sample_interval = scene.real("output.sample_interval");
-  s.frame_interval = scene.real("output.frame_interval");
+  if (scene.is_set("output.sample_interval")) s.sample_interval = scene.real("output.sample_interval");
+  if (scene.is_set("output.frame_interval")) s.frame_interval = scene.real("output.frame_interval");
   return s;
+}
+
+void adapt(BreakerScene& s, double strength) {
+  if (s.flow == FlowKind::quiescent) {
+    // Nothing grows: an interval says how often only in a flow.
+    for (double* stress : {&s.largest_stress, &s.sample_interval, &s.frame_interval})
+      if (*stress == 0) *stress = 1;
+    return;
+  }
+  // Up to the stress S a ramp of rate r has strained by S^2/(2 r mu).
+  if (s.protocol.stages().empty())
+    s.protocol = Protocol({{0, strength * strength / (2 * s.ramp_strain * s.model.viscosity)}});
+  s.model.weak_stress = 1e-3 * strength;
+  if (s.largest_stress == 0) s.largest_stress = 20 * strength;
+  if (s.sample_interval == 0) s.sample_interval = strength / 200;
+  if (s.frame_interval == 0) s.frame_interval = strength / 20;
 }
 
 }  // namespace crumble

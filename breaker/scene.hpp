@@ -5,6 +5,8 @@
 
 #include "breaker/model.hpp"
 #include "breaker/protocol.hpp"
+#include "common/agglomerate/rescaled.hpp"
+#include "common/hydro/flow_kind.hpp"
 #include "common/io/parameters.hpp"
 
 namespace crumble {
@@ -14,10 +16,11 @@ const ParameterTable& breaker_parameters();
 struct BreakerScene {
   std::optional<double> radius;  // m
   bool keep_contacts = false, only_largest = false;
-  double largest_gap = 0.2;  // of listed contacts, in a
+  double largest_gap = largest_listed_gap;  // in a
   BreakupModel model;
-  std::string flow;  // as the agglomerate file calls it
-  Protocol protocol;
+  FlowKind flow = FlowKind::elongation;
+  Protocol protocol;         // without stages: adapt() makes the ramp
+  double ramp_strain = 500;  // of that ramp, up to the rigid strength
   bool is_explicit = false;
   double tolerance = 0.01;
   double step = 0;  // explicit only, s; 0: half the stability limit
@@ -25,16 +28,19 @@ struct BreakerScene {
   double reach = 1;                            // gap beyond which a fragment is lost, in a
   std::optional<std::int64_t> lost_particles;  // whose loss is the breakup; else a twentieth of all, rounded up
   bool until_stable = false;
-  double stable_strain = 20;    // without rupture, at constant stress
-  double largest_stress = 1e5;  // Pa
+  double stable_strain = 20;  // without rupture, at constant stress
   double brittle_below = 0.1;   // relative change of the largest semi-axis
   bool estimate_error = true;
   double accuracy = 0.01;     // of the critical stress, relative; while its error is larger the tolerance is halved,
   std::int64_t halvings = 2;  // at most so often
-  double sample_interval = 5, frame_interval = 50;  // Pa
+  double largest_stress = 0, sample_interval = 0, frame_interval = 0;  // Pa; 0: adapt() says
 };
 
 // Throws InputError naming file, line and keys where values contradict each other.
 BreakerScene breaker_scene(const Scene& scene);
+
+// Fills what the scene leaves to the strength of the agglomerate, the stress at which it would break if it were rigid:
+// the ramp, at which stress the run ends, and how often it writes. strength: Pa, > 0.
+void adapt(BreakerScene& scene, double strength);
 
 }  // namespace crumble

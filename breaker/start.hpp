@@ -2,7 +2,7 @@
 #pragma once
 
 #include "breaker/scene.hpp"
-#include "common/agglomerate/closing.hpp"
+#include "common/agglomerate/rescaled.hpp"
 
 namespace crumble {
 
@@ -10,9 +10,9 @@ struct Start {
   Agglomerate agglomerate;  // at rest, time 0
   double scale = 1;         // new over old radius
   bool closed = false;
-  std::size_t lost = 0, made = 0;             // contacts, by the closing
-  double residual_rms = 0, residual_max = 0;  // tension in the contacts, N
-  double rms_use = 0, max_use = 0;            // the same over the pull-off force of each pair
+  std::size_t lost = 0, made = 0;  // contacts, by the closing
+  SelfStress self_stress;
+  double rigid_strength = 0;  // flow stress at which it would break if it were rigid, Pa; 0 where nothing flows
 };
 
 // Throws InputError where a listed contact is open by more than scene.largest_gap radii, naming the pair, and where the

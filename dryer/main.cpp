@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "common/io/command_line.hpp"
+#include "common/io/granule.hpp"
 #include "common/io/interrupt.hpp"
 #include "common/io/machine.hpp"
 #include "common/io/output_lock.hpp"
@@ -106,9 +107,11 @@ int dry(int argc, const char* const* argv) {
   Report report("dryer", provenance.version, line.scene, static_cast<std::int64_t>(scene.seed));
   ProgressPrinter progress(stderr, line.check ? line.scene : std::filesystem::path(line.output).stem().string(),
                            line.quiet);
+  progress.say(granule_line(text, std::nullopt));
   for (const std::string& fact : describe(scene)) progress.say(fact);
   const ExpectedCost cost = expected_cost(scene);
   progress.say(expected_cost_text(scene, cost, machine));
+  report_inputs(report, text, std::nullopt);
   report_regime(report, scene);
   if (line.check) {
     check_start(scene);
@@ -128,6 +131,9 @@ int dry(int argc, const char* const* argv) {
 
   const Morphology result = morphology(run.state().particles, run.state().state);
   write_morphology(writer, result);
+  Properties properties = properties_of(text);
+  properties["fluid.viscosity"] = scene.model.viscosity;  // where the scene says "water", water's
+  write_properties(writer, properties);
   writer.finish("dry");
   checkpoint.remove();
   report.add_earlier(checkpoint.used());

@@ -102,9 +102,9 @@ std::vector<double> particle_radii(const Scene& scene, const Machine& machine) {
 // The number, or water's law at the temperature of the scene.
 double liquid_property(const Scene& scene, const std::string& key, double (*water)(double), double from, double to) {
   if (!scene.word(key)) return scene.real(key);
-  const double temperature = scene.real("liquid.temperature");
+  const double temperature = scene.real("fluid.temperature");
   if (temperature < from || temperature > to)
-    throw scene.error("liquid.temperature",
+    throw scene.error("fluid.temperature",
                       fmt::format("{} = \"water\" ({}) is known from {} to {} K; give a temperature in between or a "
                                   "number for {}",
                                   key, scene.where(key), from, to, key));
@@ -135,11 +135,11 @@ double memory_of(double particles) { return 3e7 + 1200 * particles; }
 ProcessInputs process_inputs(const Scene& scene, const Machine& machine) {
   ProcessInputs p;
   p.radius = particle_radii(scene, machine);
-  p.viscosity = liquid_property(scene, "liquid.viscosity", water_viscosity, water_viscosity_from, water_viscosity_to);
-  p.surface_tension = liquid_property(scene, "liquid.surface_tension", water_surface_tension,
+  p.viscosity = liquid_property(scene, "fluid.viscosity", water_viscosity, water_viscosity_from, water_viscosity_to);
+  p.surface_tension = liquid_property(scene, "fluid.surface_tension", water_surface_tension,
                                       water_surface_tension_from, water_surface_tension_to);
-  p.contact_angle = scene.real("liquid.contact_angle") * std::numbers::pi / 180;
-  if (scene.flag("particle.brownian_motion")) p.thermal_energy = boltzmann_constant * scene.real("liquid.temperature");
+  p.contact_angle = scene.real("fluid.contact_angle") * std::numbers::pi / 180;
+  if (scene.flag("particle.brownian_motion")) p.thermal_energy = boltzmann_constant * scene.real("fluid.temperature");
   p.lifetime = lifetime(scene, p);
   return p;
 }

@@ -5,11 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
 
 #include "common/contact/small_contact.hpp"
-#include "common/io/number_list.hpp"
 #include "common/io/plausible.hpp"
+#include "common/io/shared_parameters.hpp"
 #include "dryer/inertial.hpp"
 #include "dryer/process_inputs.hpp"
 #include "dryer/softening.hpp"
@@ -22,16 +21,8 @@ std::vector<double> frames(const Scene& scene) {
   std::vector<double> fraction;
   const auto even = scene.integer("output.frames");
   for (std::int64_t k = 1; k <= even; ++k) fraction.push_back(static_cast<double>(k) / static_cast<double>(even + 1));
-  if (scene.text("output.theta").empty()) return fraction;
-  try {
-    for (const double theta : number_list(scene.text("output.theta"))) {
-      if (!(theta > 0 && theta < 1))
-        throw std::invalid_argument(fmt::format("{:g} is not between 0 and 1, both excluded", theta));
-      fraction.push_back(1 - std::sqrt(1 - theta));
-    }
-  } catch (const std::invalid_argument& error) {
-    throw scene.error("output.theta", error.what());
-  }
+  if (scene.is_set("output.theta"))
+    for (const double theta : scene.list("output.theta")) fraction.push_back(1 - std::sqrt(1 - theta));
   std::sort(fraction.begin(), fraction.end());
   fraction.erase(std::unique(fraction.begin(), fraction.end()), fraction.end());
   return fraction;
@@ -60,13 +51,12 @@ IntegratorKind integrator_kind(const Scene& scene, const DryingModel& model) {
 DryingScene drying_scene(const Scene& scene, const Machine& machine) {
   require_radius(scene, "particle.radius");
   require_radius(scene, "particle.second_radius");
-  require_temperature(scene, "liquid.temperature");
+  require_temperature(scene, "fluid.temperature");
   const ProcessInputs process = process_inputs(scene, machine);
   DryingScene s;
   s.nominal_radius = scene.real("particle.radius");
   s.radius = process.radius;
-  s.model.material = {scene.real("material.youngs_modulus"), scene.real("material.poisson_ratio"),
-                      scene.real("material.surface_energy"), scene.real("material.density")};
+  s.model.material = material_in(scene);
   s.model.viscosity = process.viscosity;
   s.model.thermal_energy = process.thermal_energy;
   s.model.droplet = {scene.real("droplet.radius"), process.lifetime,
@@ -74,16 +64,13 @@ DryingScene drying_scene(const Scene& scene, const Machine& machine) {
   s.surface_tension = process.surface_tension;
   s.contact_angle = process.contact_angle;
   ContactChoice& c = s.model.contact;
+  c = contact_in(scene);
   c.normal = scene.choice("contact.law") == "jkr" ? NormalLaw::jkr : NormalLaw::cundall_strack;
   if (const auto wrong = outside_contact_theory(s.model.material, s.smallest_radius());
       c.normal == NormalLaw::jkr && !wrong.empty())
     throw scene.error("material.youngs_modulus", wrong);
   c.stiffness_factor = scene.real("contact.stiffness_factor");
   c.friction = scene.real("contact.friction");
-  c.sliding_limit_factor = scene.real("contact.sliding_limit_factor");
-  c.twisting_limit_factor = scene.real("contact.twisting_limit_factor");
-  c.rolling_limit_factor = scene.real("contact.rolling_limit_factor");
-  c.rolling_stiffness_factor = scene.real("contact.rolling_stiffness_factor");
   s.seed = static_cast<std::uint64_t>(scene.integer("run.seed"));
   s.integrator = integrator_kind(scene, s.model);
   s.implicit = {scene.real("integrator.largest_displacement"), scene.real("integrator.contact_precision")};

@@ -1,10 +1,67 @@
 // The keys of a drying scene.
+#include "common/io/shared_parameters.hpp"
 #include "dryer/scene.hpp"
 
 namespace crumble {
 
+using P = Parameter;
+
+namespace {
+
+Section material() {
+  Section section = material_section();
+  section.parameters.push_back(density_parameter());
+  return section;
+}
+
+// The liquid of a droplet has a temperature and a surface, too.
+Section fluid() {
+  Section section = fluid_section();
+  section.meaning +=
+      " Water's viscosity is that of IAPWS R12-08 at 0.1 MPa, its surface tension that of IAPWS R1-76, both at "
+      "fluid.temperature.";
+  auto& keys = section.parameters;
+  keys.front() = keys.front().or_word({"water"});
+  keys.insert(keys.begin(), P::real("temperature", "K", "Temperature T of liquid and particles, uniform")
+                                .above(0)
+                                .by_default(300)
+                                .formerly("liquid.temperature"));
+  keys.push_back(P::real("surface_tension", "N m-1",
+                         "Surface tension sigma. The default is the paper's reduced value; water's is 400 times as large")
+                     .at_least(0)
+                     .or_word({"water"})
+                     .by_default(1.75e-4)
+                     .formerly("liquid.surface_tension"));
+  keys.push_back(P::real("contact_angle", "degree",
+                         "Contact angle theta of the liquid on the particles: the capillary force of Eq. 8 times "
+                         "cos^2(theta/2)")
+                     .at_least(0)
+                     .below(180)
+                     .by_default(0)
+                     .formerly("liquid.contact_angle"));
+  return section;
+}
+
+Section contact() {
+  const ContactChoice paper;
+  Section section = contact_section();
+  const std::vector<Parameter> law{
+      P::choice("law", {"jkr", "cundall-strack"},
+                "Normal force: JKR (Eq. 10), or a linear spring with the pull-off force of Eq. 6 and Coulomb friction")
+          .by_default("jkr"),
+      P::real("stiffness_factor", "", "cundall-strack: spring stiffness in units of E a")
+          .above(0)
+          .by_default(paper.stiffness_factor),
+      P::real("friction", "", "cundall-strack: tangent of the friction angle; it limits sliding instead of Eq. 14")
+          .at_least(0)
+          .by_default(paper.friction)};
+  section.parameters.insert(section.parameters.begin(), law.begin(), law.end());
+  return section;
+}
+
+}  // namespace
+
 const ParameterTable& drying_parameters() {
-  using P = Parameter;
   static const ParameterTable table{
       {"particle",
        "The primary particles: spheres, equal unless particle.distribution says otherwise.",
@@ -26,31 +83,10 @@ const ParameterTable& drying_parameters() {
             .below(1)
             .optional(),
         P::flag("brownian_motion",
-                "Brownian force and torque (Eqs. 4-5) at liquid.temperature; false: D = 0, Pe = infinity")
+                "Brownian force and torque (Eqs. 4-5) at fluid.temperature; false: D = 0, Pe = infinity")
             .by_default(false)}},
-      {"material",
-       "What the particles are made of (paper, Table 1).",
-       {P::real("youngs_modulus", "Pa", "Elastic modulus E").above(0).by_default(3.4e9),
-        P::real("poisson_ratio", "", "Poisson ratio nu").above(-1).at_most(0.5).by_default(0.5),
-        P::real("surface_energy", "J m-2", "Superficial energy gamma_s of one surface").above(0).by_default(4.8e-3),
-        P::real("density", "kg m-3", "Density rho_p; matters to the inertial integrator only")
-            .above(0)
-            .by_default(1300)}},
-      {"liquid",
-       "The liquid of the droplet. Water's viscosity is that of IAPWS R12-08 at 0.1 MPa, its surface tension that of "
-       "IAPWS R1-76, both at liquid.temperature.",
-       {P::real("temperature", "K", "Temperature T of liquid and particles, uniform").above(0).by_default(300),
-        P::real("viscosity", "Pa s", "Viscosity mu").above(0).or_word({"water"}).by_default(1e-3),
-        P::real("surface_tension", "N m-1",
-                "Surface tension sigma. The default is the paper's reduced value; water's is 400 times as large")
-            .at_least(0)
-            .or_word({"water"})
-            .by_default(1.75e-4),
-        P::real("contact_angle", "degree",
-                "Contact angle theta of the liquid on the particles: the capillary force of Eq. 8 times cos^2(theta/2)")
-            .at_least(0)
-            .below(180)
-            .by_default(0)}},
+      material(),
+      fluid(),
       {"droplet",
        "The droplet: R(t)^2 = R0^2 - k t (Eq. 7). How fast it dries is said by exactly one of the last four keys.",
        {P::real("radius", "m", "Radius R0 at the start").above(0),
@@ -61,23 +97,7 @@ const ParameterTable& drying_parameters() {
             .optional(),
         P::real("front_speed", "m s-1", "Speed -dR/dt = k/(2 R0) of the surface at the start").above(0).optional(),
         P::real("peclet", "", "Peclet number Pe = R0^2/(D tau) = k/D (Eq. 22), D of Eq. 23").above(0).optional()}},
-      {"contact",
-       "The bond between two touching particles. A limit factor multiplies the critical load of the paper's equation: "
-       "0 takes the resistance away, 1e6 makes it elastic without limit in practice.",
-       {P::choice(
-            "law", {"jkr", "cundall-strack"},
-            "Normal force: JKR (Eq. 10), or a linear spring with the pull-off force of Eq. 6 and Coulomb friction")
-            .by_default("jkr"),
-        P::real("stiffness_factor", "", "cundall-strack: spring stiffness in units of E a").above(0).by_default(1),
-        P::real("friction", "", "cundall-strack: tangent of the friction angle").at_least(0).by_default(0.5),
-        P::real("sliding_limit_factor", "", "Of the critical sliding force (Eq. 14, or Coulomb friction)")
-            .at_least(0)
-            .by_default(1),
-        P::real("twisting_limit_factor", "", "Of the critical twisting torque (Eq. 17)").at_least(0).by_default(1),
-        P::real("rolling_limit_factor", "", "Of the critical rolling torque (Eqs. 20-21)").at_least(0).by_default(1),
-        P::real("rolling_stiffness_factor", "", "Of the rolling stiffness k_r (Eq. 20); the critical torque stays")
-            .above(0)
-            .by_default(1)}},
+      contact(),
       {"dry",
        "A particle that the liquid has left behind (r > R + a). No capillary force acts on it; its bonds stay.",
        {P::flag("everything_acts", "Thermal noise goes on as in the liquid").by_default(false),
@@ -135,8 +155,10 @@ const ParameterTable& drying_parameters() {
             .at_least(0)
             .at_most(100000)
             .by_default(50),
-        P::text("theta", "Further frames: 0.2,0.4 adds those where (R/R0)^2 has fallen by 0.2 and by 0.4")
-            .by_default("")}},
+        P::list("theta", "", "Further frames: [0.2, 0.4] adds those where (R/R0)^2 has fallen by 0.2 and by 0.4")
+            .above(0)
+            .below(1)
+            .optional()}},
       {"run", "The run itself.", {P::integer("seed", "Names the random start").at_least(0).by_default(1)}}};
   return table;
 }

@@ -1,4 +1,4 @@
-// Surface tension of water, for scenes that say liquid.surface_tension = "water".
+// Surface tension of water, for scenes that say fluid.surface_tension = "water".
 #pragma once
 
 namespace crumble {

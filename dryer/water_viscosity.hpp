@@ -1,4 +1,4 @@
-// Viscosity of water, for scenes that say liquid.viscosity = "water".
+// Viscosity of water, for scenes that say fluid.viscosity = "water".
 #pragma once
 
 namespace crumble {

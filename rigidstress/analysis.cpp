@@ -16,7 +16,7 @@ void refuse_fragments(const std::vector<Body>& parts, const std::string& name) {
   if (parts.size() > 8) sizes += ", ...";
   throw InputError(
       fmt::format("{}: {} pieces that no contact connects, of {} particles (particle {} belongs to the "
-                  "second): not one rigid body. structure.fragments = \"each\" analyses each by itself",
+                  "second): not one rigid body. particle.fragments = \"each\" analyses each by itself, \"largest\" the largest alone",
                   name, parts.size(), sizes, parts[1].particle.front()));
 }
 
@@ -33,7 +33,7 @@ Analysis analyse(Prepared prepared, const std::string& name, const StressScene& 
   Analysis a;
   a.prepared = std::move(prepared);
   std::vector<Body> parts = bodies(a.prepared);
-  if (!scene.each_fragment) refuse_fragments(parts, name);
+  if (scene.pieces != Pieces::each) refuse_fragments(parts, name);
   bool every_error_known = true;
   for (Body& part : parts) {
     BodyResult b;
@@ -67,12 +67,12 @@ void run_flows(Analysis& analysis, const StressScene& scene) {
   for (BodyResult& b : analysis.bodies) {
     if (!b.loaded.pull_off.empty()) {
       const WorstContact worst =
-          worst_contact(b.loaded.response.tension, b.loaded.pull_off, planar_elongation_gradient());
+          worst_contact(b.loaded.response.tension, b.loaded.pull_off, unit_gradient(FlowKind::elongation));
       b.worst = {worst.contact, worst.tension, worst.tension / b.loaded.pull_off[worst.contact]};
     }
-    if (scene.elongation) b.elongation = straining(b.loaded, planar_elongation_gradient(), scene.straining);
-    if (scene.uniaxial) b.uniaxial = straining(b.loaded, uniaxial_gradient(), scene.straining);
-    if (scene.biaxial) b.biaxial = straining(b.loaded, biaxial_gradient(), scene.straining);
+    if (scene.elongation) b.elongation = straining(b.loaded, unit_gradient(FlowKind::elongation), scene.straining);
+    if (scene.uniaxial) b.uniaxial = straining(b.loaded, unit_gradient(FlowKind::uniaxial), scene.straining);
+    if (scene.biaxial) b.biaxial = straining(b.loaded, unit_gradient(FlowKind::biaxial), scene.straining);
     if (scene.shear) b.shear = shear(b.loaded, scene.orbit);
     if (scene.history) b.history = follow_history(b.loaded, *scene.history, scene.orbit.starts, scene.orbit.tolerance);
   }

@@ -19,18 +19,6 @@ std::vector<Quaternion> random_orientations(std::uint64_t seed, int count) {
   return all;
 }
 
-Eigen::Matrix3d planar_elongation_gradient() { return planar_elongation(1).gradient; }
-
-Eigen::Matrix3d simple_shear_gradient() {
-  Eigen::Matrix3d g = Eigen::Matrix3d::Zero();
-  g(0, 1) = 1;
-  return g;
-}
-
-Eigen::Matrix3d uniaxial_gradient() { return Vector3(1, -0.5, -0.5).asDiagonal() * std::sqrt(1.0 / 3); }
-
-Eigen::Matrix3d biaxial_gradient() { return Vector3(0.5, 0.5, -1).asDiagonal() * std::sqrt(1.0 / 3); }
-
 Peak LoadedBody::peak(const Vector5& strain) const {
   Peak p;
   const Eigen::VectorXd n = tensions(strain);
@@ -145,7 +133,7 @@ Vector3 long_axis(const Response& response) {
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(response.drag.bottomRightCorner<3, 3>()).eigenvectors().col(0);
 }
 
-// Mean time of a turn of a body axis about the vorticity of simple_shear_gradient (along -z): from the first to the
+// Mean time of a turn of a body axis about the vorticity of simple shear (along -z): from the first to the
 // last passage of its azimuth through the gradient direction, forward or backward end, so that whole half turns count.
 // Less than two passages: by the angle turned so far.
 double tumbling_time(const Orbit& orbit, const Vector3& axis) {
@@ -179,7 +167,7 @@ double tumbling_time(const Orbit& orbit, const Vector3& axis) {
 
 ShearResult shear(const LoadedBody& body, const ShearChoice& choice) {
   ShearResult result;
-  const Eigen::Matrix3d gradient = simple_shear_gradient();
+  const Eigen::Matrix3d gradient = unit_gradient(FlowKind::shear);
   if (!body.pull_off.empty()) {
     const WorstContact worst = worst_contact(body.response.tension, body.pull_off, gradient);
     result.supremum = {worst.contact, worst.tension, worst.tension / body.pull_off[worst.contact]};

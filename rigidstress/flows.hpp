@@ -8,8 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "common/hydro/flow_kind.hpp"
 #include "common/hydro/turning_body.hpp"
-#include "rigidstress/response.hpp"
+#include "common/rigid/response.hpp"
 
 namespace crumble {
 
@@ -32,12 +33,6 @@ struct LoadedBody {
   Peak peak(const Vector5& strain) const;
   TurningBody turning(double tolerance = 1e-8) const { return TurningBody(response.drift.bottomRows<3>(), tolerance); }
 };
-
-// Gradients of unit shear rate sqrt(2 E:E).
-Eigen::Matrix3d planar_elongation_gradient();  // du_x/dx = -du_z/dz = 1/2 (paper, 3.3)
-Eigen::Matrix3d simple_shear_gradient();       // du_x/dy = 1 (paper, 3.4)
-Eigen::Matrix3d uniaxial_gradient();           // stretched along x
-Eigen::Matrix3d biaxial_gradient();            // stretched along x and y
 
 // Flows without rotation: the body turns until it rests in one of a few orientations.
 struct Attractor {

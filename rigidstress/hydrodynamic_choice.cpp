@@ -60,7 +60,7 @@ RigidBodyResponse far_field_response(const Network& network, const Vector3& cent
 
 // Lubrication on relative motion only leaves drag and drift of a rigid body as they are; what it adds are loads by the
 // strain between near neighbours, in balance for every pair. So the far field's solution serves for both rungs.
-RigidBodyResponse with_relative_lubrication(const Network& network, RigidBodyResponse body, double range) {
+RigidBodyResponse with_relative_lubrication(const Network& network, RigidBodyResponse body, const HydroModel& model) {
   const Spheres spheres = spheres_of(network);
   const double a = mean_radius(spheres);
   const int n = network.size();
@@ -70,7 +70,8 @@ RigidBodyResponse with_relative_lubrication(const Network& network, RigidBodyRes
     strain.middleRows(5 * i, 5) = -Eigen::Matrix<double, 5, 5>::Identity();
   }
   Eigen::MatrixXd force = Eigen::MatrixXd::Zero(6 * n, 5), stresslet = Eigen::MatrixXd::Zero(5 * n, 5);
-  Lubrication(scaled(spheres, 1 / a), range, PairMotion::relative).add(motion, strain, force, stresslet);
+  Lubrication(scaled(spheres, 1 / a), model.lubrication_range, PairMotion::relative, model.gap_floor)
+      .add(motion, strain, force, stresslet);
   for (int i = 0; i < n; ++i) {
     body.free_loads.middleRows(6 * i, 3) -= viscosity * a * a * force.middleRows(6 * i, 3);
     body.free_loads.middleRows(6 * i + 3, 3) -= viscosity * a * a * a * force.middleRows(6 * i + 3, 3);
@@ -114,7 +115,6 @@ constexpr const char* by_lubrication = "twice what pair lubrication on relative 
 // What it misses of collective drag lubrication does not see: 2 % of the largest tension in a straight chain of 50.
 double far_field_error(double change) { return std::max(0.03, 2 * change); }
 
-constexpr double lubrication_range = HydroModel{}.lubrication_range;
 
 // Climbs the orders one by one.
 class Ladder {
@@ -126,7 +126,7 @@ class Ladder {
   void start() {
     const RigidBodyResponse far = far_field_response(network_, centre_, choice_, say_);
     response_ = respond(network_, far);
-    const Response with = respond(network_, with_relative_lubrication(network_, far, lubrication_range));
+    const Response with = respond(network_, with_relative_lubrication(network_, far, {}));
     changes_.push_back(tension_change(response_.tension, with.tension));
     order_ = first_ = 1;
   }
@@ -166,14 +166,14 @@ Judged two_rungs(const Network& network, const Vector3& centre, const Hydrodynam
   const Response without = respond(network, far);
   Judged result;
   if (choice.method == Method::fts_lubrication) {
-    HydroModel model{Rung::fts_lubrication};
-    model.lubrication_range = choice.lubrication_range;
+    HydroModel model = choice.lubrication;
+    model.rung = Rung::fts_lubrication;
     result.response = respond(network, rigid_response(network, centre, model));
     result.method = "fts-lubrication";
     result.how = "not estimated: pair lubrication on collective motion is not a step towards the exact solution";
     return result;
   }
-  const Response with = respond(network, with_relative_lubrication(network, far, choice.lubrication_range));
+  const Response with = respond(network, with_relative_lubrication(network, far, choice.lubrication));
   result.response = choice.method == Method::fts ? without : with;
   result.method = choice.method == Method::fts ? "fts" : "fts-relative-lubrication";
   result.error = choice.method == Method::fts ? far_field_error(tension_change(without.tension, with.tension))
@@ -219,7 +219,7 @@ Judged cheapest(const Network& network, const Vector3& centre, const Hydrodynami
     result.error = ladder.error();
     result.how = ladder.how();
     result.method = order_name(order);
-    result.within_tolerance = *result.error <= choice.tolerance;
+    result.within_tolerance = *result.error <= choice.accuracy;
     say(fmt::format("{}: largest tension within {:.2g} % (estimate)", result.method, 100 * *result.error));
     if (result.within_tolerance) break;
   }

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "common/hydro/model.hpp"
-#include "rigidstress/response.hpp"
+#include "common/rigid/response.hpp"
 
 namespace crumble {
 
@@ -15,11 +15,10 @@ enum class Method { automatic, fts, fts_lubrication, fts_relative_lubrication, m
 struct HydrodynamicChoice {
   Method method = Method::automatic;
   int order = 3;  // multipole: L
-  double lubrication_range =
-      2.5;                  // fts-lubrication, fts-relative-lubrication: pairs below this distance, in mean radii
-  double tolerance = 0.01;  // automatic: relative error of the largest tension
-  double memory = 4e9;      // bytes
-  bool estimate = true;     // a fixed method: also what the error estimate needs
+  HydroModel lubrication;  // fts-lubrication, fts-relative-lubrication: range and floor
+  double accuracy = 0.01;  // automatic: relative error of the largest tension
+  double memory = 4e9;     // bytes
+  bool estimate = true;    // a fixed method: also what the error estimate needs
 };
 
 struct Judged {

@@ -4,8 +4,9 @@
 
 #include <filesystem>
 
-#include "common/io/agglomerate_reader.hpp"
+#include "common/agglomerate/morphology.hpp"
 #include "common/io/command_line.hpp"
+#include "common/io/granule.hpp"
 #include "common/io/output_lock.hpp"
 #include "common/io/program.hpp"
 #include "common/io/provenance.hpp"
@@ -37,9 +38,12 @@ int load(int argc, const char* const* argv) {
     deliver(*line.answer);
     return 0;
   }
-  const Scene text = Scene::read(line.scene, stress_parameters(), line.overrides);
-  const StressScene scene = stress_scene(text);
+  Scene text = Scene::read(line.scene, stress_parameters(), line.overrides);
   const std::string input = line.inputs.front();
+  const Agglomerate agglomerate = read_agglomerate(input);
+  const Parent parent{input, read_info(input).properties, mean_radius(agglomerate.particles)};
+  inherit(text, parent);
+  const StressScene scene = stress_scene(text);
   if (line.threads > 0) omp_set_num_threads(line.threads);
   std::optional<OwnedOutputs> owned;
   if (!line.check) owned.emplace(line.written, history_files(text));
@@ -48,12 +52,15 @@ int load(int argc, const char* const* argv) {
   ProgressPrinter progress(stderr, std::filesystem::path(input).stem().string(), line.quiet);
   const Say say = [&](const std::string& message) { progress.say(message); };
 
+  say(granule_line(text, parent));
+  report_inputs(report, text, parent);
   std::optional<Analysis> analysis = restore(input, text, scene);
   if (analysis) {
     say("the response of " + input + " is that of this scene: nothing is factorised");
     if (line.check) return 0;
   } else {
-    Prepared prepared = prepare(read_agglomerate(input), input, scene.radius, scene.material, scene.largest_gap);
+    Prepared prepared = prepare(agglomerate, input, scene.radius, scene.material, scene.largest_gap,
+                                scene.pieces == Pieces::largest);
     for (const std::string& fact : describe(prepared)) say(fact);
     if (line.check) return 0;
     analysis = analyse(std::move(prepared), input, scene, say);
@@ -63,6 +70,7 @@ int load(int argc, const char* const* argv) {
   AgglomerateWriter writer(line.output, analysis->prepared.particles,
                            {"rigidstress", provenance, text.given(), text.resolved(), "none"});
   write_stress(writer, *analysis, scene);
+  write_properties(writer, properties_of(text, parent.properties));
   writer.finish("relaxed");
   fill_report(report, *analysis, scene);
   deliver(result_text(*analysis, scene), [&] { report.write(line.report); });

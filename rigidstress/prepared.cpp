@@ -1,36 +1,15 @@
 #include "rigidstress/prepared.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
 
 #include "common/agglomerate/fragments.hpp"
 #include "common/agglomerate/morphology.hpp"
+#include "common/agglomerate/rescaled.hpp"
 #include "common/contact/jkr.hpp"
 #include "common/contact/small_contact.hpp"
 #include "common/io/errors.hpp"
 
 namespace crumble {
-
-namespace {
-
-double gap(const Particles& particles, const Frame& frame, const Contact& c) {
-  return (frame.position[c.j] - frame.position[c.i]).norm() - particles.radius[c.i] - particles.radius[c.j];
-}
-
-void refuse_open_contacts(const Particles& particles, const Frame& frame, const std::string& name, double largest) {
-  for (const Contact& c : frame.contacts) {
-    const double h = gap(particles, frame, c), a = pair_radius(particles.radius[c.i], particles.radius[c.j]);
-    if (h > largest * a)
-      throw InputError(
-          fmt::format("{}: contact {}-{}: the surfaces are {:.3g} a apart, more than structure.largest_gap = "
-                      "{:g} a: this cannot be a contact",
-                      name, c.i, c.j, h / a, largest));
-  }
-}
-
-}  // namespace
 
 std::vector<Vector3> touching_positions(const Particles& particles, const Frame& frame) {
   double stretch = 0;
@@ -45,38 +24,25 @@ std::vector<Vector3> touching_positions(const Particles& particles, const Frame&
 }
 
 Prepared prepare(const Agglomerate& agglomerate, const std::string& name, std::optional<double> radius,
-                 const Material& material, double largest_gap) {
-  Prepared p;
-  p.particles = agglomerate.particles;
-  Frame frame = agglomerate.state;
-  frame.step = 0;
-  frame.time = 0;
-  frame.orientation.clear();
-  if (radius) p.scale = *radius / mean_radius(p.particles);
-  for (double& a : p.particles.radius) a *= p.scale;
-  for (double& m : p.particles.mass) m *= p.scale * p.scale * p.scale;
-  for (Vector3& x : frame.position) x *= p.scale;
-  for (Contact& c : frame.contacts) c.born = 0;
-  const double smallest = *std::min_element(p.particles.radius.begin(), p.particles.radius.end());
-  if (const auto wrong = outside_contact_theory(material, smallest); !wrong.empty())
+                 const Material& material, double largest_gap, bool only_largest) {
+  const std::vector<double>& before = agglomerate.particles.radius;
+  const double factor = radius ? *radius / mean_radius(agglomerate.particles) : 1;
+  if (const auto wrong = outside_contact_theory(material, factor * *std::min_element(before.begin(), before.end()));
+      !wrong.empty())
     throw InputError("material.youngs_modulus " + wrong);
-  refuse_open_contacts(p.particles, frame, name, largest_gap);
-
-  Closed closed = close_all_contacts(p.particles, frame, material, p.made);
-  if (!closed.converged)
-    throw std::runtime_error(
-        fmt::format("{}: closing the contacts did not converge in {} steps: is the contact list "
-                    "that of these positions?",
-                    name, closed.iterations));
-  p.frame = std::move(closed.frame);
-  p.lost = std::move(closed.lost);
-  p.largest_tension = closed.tension_max;
-  double squares = 0;
-  for (const Contact& c : p.frame.contacts) {
-    squares += c.normal_force * c.normal_force;
-    p.residual_max = std::max(p.residual_max, std::abs(c.normal_force));
-  }
-  if (!p.frame.contacts.empty()) p.residual_rms = std::sqrt(squares / static_cast<double>(p.frame.contacts.size()));
+  if (const auto open = open_contact(agglomerate, largest_gap)) throw InputError(name + ": " + *open);
+  Rescaled r = rescaled(only_largest ? largest_fragment(agglomerate) : agglomerate, radius, material);
+  if (only_largest && !r.lost.empty()) r.agglomerate = largest_fragment(r.agglomerate);
+  Prepared p;
+  p.particles = std::move(r.agglomerate.particles);
+  p.frame = std::move(r.agglomerate.state);
+  p.frame.orientation.clear();
+  p.scale = r.scale;
+  p.lost = std::move(r.lost);
+  p.made = r.made;
+  p.largest_tension = r.largest_tension;
+  p.residual_rms = r.self_stress.rms;
+  p.residual_max = r.self_stress.max;
   p.position = touching_positions(p.particles, p.frame);
   return p;
 }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "common/agglomerate/closing.hpp"
-#include "rigidstress/network.hpp"
+#include "common/rigid/network.hpp"
 
 namespace crumble {
 
@@ -27,10 +27,10 @@ struct Prepared {
 // analysis of spheres wants them to touch: `position` is the closed configuration stretched by that amount, the mean of
 // (a_i + a_j)/(distance) over the contacts, so that results do not depend on the material through it.
 //
-// Throws InputError, naming the pair, where a listed contact is open by more than `largest_gap` radii: such a list is
-// wrong, and closing would tear the agglomerate about. Throws std::runtime_error if closing does not converge.
+// only_largest: leaves the other pieces out. Throws InputError, naming the pair, where a listed contact is open by more
+// than `largest_gap` radii. Throws std::runtime_error if closing does not converge.
 Prepared prepare(const Agglomerate& agglomerate, const std::string& name, std::optional<double> radius,
-                 const Material& material, double largest_gap);
+                 const Material& material, double largest_gap, bool only_largest = false);
 
 // Positions of closed contacts stretched to gap zero.
 std::vector<Vector3> touching_positions(const Particles& particles, const Frame& frame);

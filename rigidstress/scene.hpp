@@ -3,24 +3,27 @@
 
 #include <optional>
 
+#include "common/agglomerate/rescaled.hpp"
 #include "common/io/output_file.hpp"
 #include "common/io/parameters.hpp"
 #include "rigidstress/flows.hpp"
 #include "rigidstress/history.hpp"
 #include "rigidstress/hydrodynamic_choice.hpp"
-#include "rigidstress/joint.hpp"
+#include "common/rigid/joint.hpp"
 
 namespace crumble {
 
 const ParameterTable& stress_parameters();
 
+enum class Pieces { refuse, largest, each };
+
 struct StressScene {
   std::optional<double> radius;  // m
   Material material;
-  double viscosity = 1e-3;  // Pa s; the history only
+  double viscosity = 1;  // Pa s; the history only
   JointChoice joint;
-  bool each_fragment = false;
-  double largest_gap = 0.2;  // of listed contacts, in a
+  Pieces pieces = Pieces::refuse;
+  double largest_gap = largest_listed_gap;  // in a
   HydrodynamicChoice hydrodynamics;
   bool elongation = true, shear = true, uniaxial = false, biaxial = false;
   std::optional<GradientHistory> history;
@@ -35,8 +38,8 @@ StressScene stress_scene(const Scene& scene);
 // The files that the scene itself names.
 std::vector<ReadFile> history_files(const Scene& scene);
 
-// Two resolved scenes with the same answer here have the same response of the same file: particle, material,
-// structure and hydrodynamics.
+// Two resolved scenes with the same answer here have the same response of the same file: all sections but fluid, flow and
+// run.
 std::string response_key(const Scene& scene);
 
 }  // namespace crumble

@@ -57,4 +57,29 @@ std::vector<std::int64_t> fragment_sizes(std::span<const std::int32_t> fragment)
   return size;
 }
 
+Agglomerate largest_fragment(const Agglomerate& g) {
+  const auto label = fragments(g.particles.size(), g.state.contacts);
+  Agglomerate kept;
+  kept.state.step = g.state.step;
+  kept.state.time = g.state.time;
+  std::vector<std::int32_t> number(label.size(), -1);
+  for (std::size_t p = 0; p < label.size(); ++p) {
+    if (label[p] != 0) continue;
+    number[p] = static_cast<std::int32_t>(kept.particles.size());
+    kept.particles.radius.push_back(g.particles.radius[p]);
+    kept.particles.mass.push_back(g.particles.mass[p]);
+    if (!g.particles.id.empty()) kept.particles.id.push_back(g.particles.id[p]);
+    if (!g.particles.species.empty()) kept.particles.species.push_back(g.particles.species[p]);
+    kept.state.position.push_back(g.state.position[p]);
+    if (!g.state.orientation.empty()) kept.state.orientation.push_back(g.state.orientation[p]);
+  }
+  for (Contact c : g.state.contacts) {
+    if (number[c.i] < 0) continue;
+    c.i = number[c.i];
+    c.j = number[c.j];
+    kept.state.contacts.push_back(c);
+  }
+  return kept;
+}
+
 }  // namespace crumble

@@ -16,4 +16,7 @@ std::vector<std::int32_t> fragments(std::size_t particle_count, std::span<const 
 // Number of particles in each fragment, descending, from the labels above.
 std::vector<std::int64_t> fragment_sizes(std::span<const std::int32_t> fragment);
 
+// The largest fragment alone, its particles and contacts renumbered in order.
+Agglomerate largest_fragment(const Agglomerate& agglomerate);
+
 }  // namespace crumble

@@ -79,8 +79,8 @@ std::string per_cent_of_radius(double gap, double a) {
 
 Imported import_points(const PointList& points, const ImportOptions& options) {
   Imported result;
-  result.particles = particles_of(radii(points, options), options.material.density);
-  const std::vector<double>& radius = result.particles.radius;
+  Particles particles = particles_of(radii(points, options), options.material.density);
+  const std::vector<double>& radius = particles.radius;
   Frame frame;
   for (const Vector3& x : points.position) frame.position.push_back(options.unit * x);
   check_size(points, frame, radius);
@@ -104,7 +104,7 @@ Imported import_points(const PointList& points, const ImportOptions& options) {
   }
   complaints.raise();
   result.touching = frame.contacts.size();
-  result.closed = close_contacts(result.particles, frame, options.material);
+  result.closed = rescaled({std::move(particles), std::move(frame)}, std::nullopt, options.material);
   return result;
 }
 

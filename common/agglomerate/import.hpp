@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "common/agglomerate/closing.hpp"
 #include "common/agglomerate/point_list.hpp"
+#include "common/agglomerate/rescaled.hpp"
 #include "common/contact/material.hpp"
 
 namespace crumble {
@@ -17,8 +17,7 @@ struct ImportOptions {
 };
 
 struct Imported {
-  Particles particles;
-  Closed closed;
+  Rescaled closed;           // at the size of the list
   std::size_t touching = 0;  // pairs taken as contacts before closing
 };
 

@@ -26,10 +26,10 @@ inline LinearFlow planar_elongation(double rate) {
   return flow;
 }
 
-// Simple shear u_x = rate z.
+// Simple shear u_x = rate y (paper, section 3.4).
 inline LinearFlow simple_shear(double rate) {
   LinearFlow flow;
-  flow.gradient(0, 2) = rate;
+  flow.gradient(0, 1) = rate;
   return flow;
 }
 

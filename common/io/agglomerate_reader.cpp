@@ -103,6 +103,9 @@ AgglomerateReader::AgglomerateReader(const std::filesystem::path& path, Unprotec
       if (const auto wrong = schema::check_form(file_, entry, std::string(entry.path), sizes_); !wrong.empty())
         refuse(wrong.front());
   info_.provenance = read_provenance(file_);
+  for (const TravellingKey& k : travelling_keys())
+    if (has(std::string(k.path))) checked(std::string(k.path));
+  info_.properties = read_properties(file_);
 
   checked(positions);
   steps_ = file_.dataset(positions + "/step").read<std::int64_t>();

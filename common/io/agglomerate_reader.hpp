@@ -12,6 +12,7 @@
 #include "common/agglomerate/agglomerate.hpp"
 #include "common/io/form.hpp"
 #include "common/io/hdf5.hpp"
+#include "common/io/properties.hpp"
 #include "common/io/provenance.hpp"
 
 namespace crumble {
@@ -25,6 +26,7 @@ struct FileInfo {
   double first_time = 0, last_time = 0;  // s
   std::uint64_t bytes = 0;
   Provenance provenance;
+  Properties properties;
 };
 
 class AgglomerateReader {

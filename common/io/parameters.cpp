@@ -64,6 +64,10 @@ std::string words_of_a_real(const Parameter& p) {
   return ", or " + joined(words, " or ");
 }
 
+std::string heading(const Section& section) {
+  return section.repeated ? "[[" + section.name + "]]" : "[" + section.name + "]";
+}
+
 std::string status_of(const Parameter& p) {
   if (p.fallback) return toml_text(*p.fallback);
   return p.is_optional ? "not set" : "required";
@@ -110,6 +114,18 @@ Parameter Parameter::choice(std::string name, std::vector<std::string> choices, 
 Parameter Parameter::text(std::string name, std::string meaning) {
   Parameter p = real(std::move(name), "", std::move(meaning));
   p.kind = Kind::text;
+  return p;
+}
+
+Parameter Parameter::list(std::string name, std::string unit, std::string meaning) {
+  Parameter p = real(std::move(name), std::move(unit), std::move(meaning));
+  p.kind = Kind::list;
+  return p;
+}
+
+Parameter Parameter::formerly(std::string key) const {
+  Parameter p = *this;
+  p.former.push_back(std::move(key));
   return p;
 }
 
@@ -172,10 +188,10 @@ std::string Parameter::what_it_takes() const {
   if (kind == Kind::choice) return "one of " + joined(choices, ", ");
   if (kind == Kind::flag) return "true or false";
   if (kind == Kind::text) return "text in quotes";
-  std::string out = kind == Kind::integer ? "a whole number" : "a number";
+  std::string out = kind == Kind::integer ? "a whole number" : kind == Kind::list ? "a list of numbers" : "a number";
   if (low || high) out += " " + bounds_text(*this);
   if (!unit.empty()) out += " in " + unit;
-  return out + words_of_a_real(*this);
+  return out + words_of_a_real(*this) + (kind == Kind::list ? ", written [0.2, 0.4]" : "");
 }
 
 std::optional<std::string> Parameter::complaint(const ParameterValue& value) const {
@@ -187,6 +203,11 @@ std::optional<std::string> Parameter::complaint(const ParameterValue& value) con
     return "must be " + what_it_takes() + (guess ? fmt::format("; did you mean '{}'?", *guess) : "");
   }
   if (kind == Kind::flag || kind == Kind::text) return {};
+  if (const auto* numbers = std::get_if<std::vector<double>>(&value)) {
+    for (const double x : *numbers)
+      if (const auto wrong = complaint(x)) return number_text(x) + " " + *wrong;
+    return {};
+  }
   const double x = as_number(value);
   if (!std::isfinite(x)) return "is not finite; it must be " + what_it_takes();
   const bool too_low = low && (low->open ? x <= low->value : x < low->value);
@@ -199,6 +220,11 @@ std::string toml_text(const ParameterValue& value) {
   if (const auto* number = std::get_if<double>(&value)) return number_text(*number);
   if (const auto* integer = std::get_if<std::int64_t>(&value)) return fmt::format("{}", *integer);
   if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
+  if (const auto* numbers = std::get_if<std::vector<double>>(&value)) {
+    std::vector<std::string> texts;
+    for (const double x : *numbers) texts.push_back(number_text(x));
+    return "[" + joined(texts, ", ") + "]";
+  }
   return quoted(std::get<std::string>(value));
 }
 
@@ -206,10 +232,11 @@ std::string default_scene(const ParameterTable& table) {
   std::string out =
       "# Every parameter with its default. Values are in the unit that stands behind them and in no other.\n";
   for (const auto& section : table) {
-    out += "\n" + with_comment_marks(section.meaning) + fmt::format("[{}]\n", section.name);
+    // A repeated section has no default: all of it is a comment.
+    out += "\n" + with_comment_marks(section.meaning) + (section.repeated ? "# " : "") + heading(section) + "\n";
     for (const auto& p : section.parameters) {
       out += with_comment_marks(p.meaning + (p.range().empty() ? "" : " (" + p.range() + ")"));
-      out += assignment(p, p.fallback);
+      out += assignment(p, section.repeated ? std::nullopt : p.fallback);
     }
   }
   return out;
@@ -218,7 +245,7 @@ std::string default_scene(const ParameterTable& table) {
 std::string parameter_page(const ParameterTable& table) {
   std::string out;
   for (const auto& section : table) {
-    out += fmt::format("{}## `[{}]`\n\n{}\n\n", out.empty() ? "" : "\n", section.name, section.meaning);
+    out += fmt::format("{}## `{}`\n\n{}\n\n", out.empty() ? "" : "\n", heading(section), section.meaning);
     out += "| key | default | unit | range | meaning |\n|---|---|---|---|---|\n";
     for (const auto& p : section.parameters)
       out += fmt::format("| `{}.{}` | {} | {} | {} | {} |\n", section.name, p.name, status_of(p), p.unit, p.range(),
@@ -250,6 +277,25 @@ const std::string& Scene::choice(const std::string& key) const {
 }
 const std::string& Scene::text(const std::string& key) const { return get<std::string>(key, Parameter::Kind::text); }
 
+const std::vector<double>& Scene::list(const std::string& key) const {
+  return get<std::vector<double>>(key, Parameter::Kind::list);
+}
+
+std::size_t Scene::count(const std::string& section) const {
+  const auto found = counts_.find(section);
+  return found == counts_.end() ? 0 : found->second;
+}
+
+void Scene::inherit(const std::string& key, ParameterValue value, const std::string& from) {
+  Entry& e = entries_.at(key);
+  if (e.origin == Origin::given) return;
+  if (const auto wrong = e.parameter.complaint(value))
+    throw InputError(fmt::format("{}: {} = {}: {}", from, key, toml_text(value), *wrong));
+  e.value = std::move(value);
+  e.where = from;
+  e.origin = Origin::inherited;
+}
+
 bool Scene::is_set(const std::string& key) const { return entry(key).value.has_value(); }
 
 std::optional<std::string> Scene::word(const std::string& key) const {
@@ -268,11 +314,24 @@ InputError Scene::error(const std::string& key, const std::string& wrong) const 
   return InputError(fmt::format("{}: {}{}: {}", e.where == "default" ? file_ : e.where, key, value, wrong));
 }
 
+std::vector<std::string> Scene::keys() const {
+  std::vector<std::string> all;
+  for (const auto& section : table_) {
+    for (std::size_t k = 0; k < (section.repeated ? count(section.name) : 1); ++k)
+      for (const auto& p : section.parameters)
+        all.push_back(section.name + (section.repeated ? fmt::format("[{}].", k) : ".") + p.name);
+  }
+  return all;
+}
+
 std::string Scene::resolved() const {
   std::string out;
   for (const auto& section : table_) {
-    out += fmt::format("{}[{}]\n", out.empty() ? "" : "\n", section.name);
-    for (const auto& p : section.parameters) out += assignment(p, entry(section.name + "." + p.name).value);
+    for (std::size_t k = 0; k < (section.repeated ? count(section.name) : 1); ++k) {
+      out += fmt::format("{}{}\n", out.empty() ? "" : "\n", heading(section));
+      const std::string prefix = section.name + (section.repeated ? fmt::format("[{}].", k) : ".");
+      for (const auto& p : section.parameters) out += assignment(p, entry(prefix + p.name).value);
+    }
   }
   return out;
 }

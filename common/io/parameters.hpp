@@ -15,7 +15,7 @@
 
 namespace crumble {
 
-using ParameterValue = std::variant<double, std::int64_t, bool, std::string>;
+using ParameterValue = std::variant<double, std::int64_t, bool, std::string, std::vector<double>>;
 
 // Values are in the declared unit and in no other. A parameter is required unless it has a default or is optional
 // (then the program asks `Scene::is_set`). Use optional for alternatives, of which the program checks that one is
@@ -27,6 +27,7 @@ class Parameter {
   static Parameter flag(std::string name, std::string meaning);
   static Parameter choice(std::string name, std::vector<std::string> choices, std::string meaning);
   static Parameter text(std::string name, std::string meaning);
+  static Parameter list(std::string name, std::string unit, std::string meaning);  // of reals
 
   Parameter by_default(double value) const;
   Parameter by_default(int value) const;
@@ -37,13 +38,16 @@ class Parameter {
   // A real may also be named by one of these words, of which the program knows the number: viscosity = "water".
   Parameter or_word(std::vector<std::string> words) const;
 
-  // Range of a real or an integer.
+  // The full name by which earlier versions called it. In a scene that is an error that says so.
+  Parameter formerly(std::string key) const;
+
+  // Range of a real, an integer or each number of a list.
   Parameter above(double bound) const;
   Parameter at_least(double bound) const;
   Parameter below(double bound) const;
   Parameter at_most(double bound) const;
 
-  enum class Kind { real, integer, flag, choice, text };
+  enum class Kind { real, integer, flag, choice, text, list };
   struct Bound {
     double value;
     bool open;
@@ -52,6 +56,7 @@ class Parameter {
   std::string name, unit, meaning;
   Kind kind = Kind::real;
   std::vector<std::string> choices;  // of a choice; words of a real
+  std::vector<std::string> former;
   std::optional<ParameterValue> fallback;
   bool is_optional = false;
   std::optional<Bound> low, high;
@@ -68,6 +73,8 @@ class Parameter {
 struct Section {
   std::string name, meaning;
   std::vector<Parameter> parameters;
+  bool repeated = false;                 // written [[name]], any number of times; its keys are "name[0].key" and so on
+  std::vector<std::string> former = {};  // full names of keys of earlier versions in whose place it stands
 };
 using ParameterTable = std::vector<Section>;
 
@@ -97,6 +104,12 @@ class Scene {
   static Scene read(const std::string& file, const ParameterTable& table, const std::vector<Override>& overrides = {});
   static Scene parse(const std::string& text, const std::string& file, const ParameterTable& table,
                      const std::vector<Override>& overrides = {});
+  // A resolved scene out of a file, perhaps of an earlier version: former names are understood.
+  static Scene parse_stored(const std::string& text, const std::string& file, const ParameterTable& table);
+
+  // Takes `value` where the scene says nothing, in place of the default; `from` is what messages call its source. A
+  // value that the declaration does not allow is an InputError.
+  void inherit(const std::string& key, ParameterValue value, const std::string& from);
 
   // By full name, "section.name". Asking for what the table does not declare so is an error of ours (std::logic_error),
   // and so is reading an optional parameter that is not set.
@@ -105,16 +118,27 @@ class Scene {
   bool flag(const std::string& key) const;
   const std::string& choice(const std::string& key) const;
   const std::string& text(const std::string& key) const;
+  const std::vector<double>& list(const std::string& key) const;
+  bool declares(const std::string& key) const { return entries_.contains(key); }
+  // How often a repeated section stands in the scene.
+  std::size_t count(const std::string& section) const;
   bool is_set(const std::string& key) const;
   // The word that stands for a real, if it was given one.
   std::optional<std::string> word(const std::string& key) const;
 
-  // Where the value comes from: "drying.toml:14", "--set" or "default".
+  const std::optional<ParameterValue>& value(const std::string& key) const { return entry(key).value; }
+
+  // Where the value comes from: "drying.toml:14", "--set", "default" or what inherit() said.
   std::string where(const std::string& key) const;
+  enum class Origin { given, inherited, by_default };
+  Origin origin(const std::string& key) const { return entry(key).origin; }
   // For relations between parameters: "drying.toml:14: droplet.radius = 1e-09 m: <what is wrong>".
   InputError error(const std::string& key, const std::string& wrong) const;
 
   const std::string& file() const { return file_; }
+  const ParameterTable& table() const { return table_; }
+  // Full names in the order of the table, those of repeated sections with their numbers.
+  std::vector<std::string> keys() const;
   const std::string& given() const { return given_; }  // the text as it stood in the file
   std::string resolved() const;                        // TOML with every value; reads back to the same values
 
@@ -123,6 +147,7 @@ class Scene {
     Parameter parameter;
     std::optional<ParameterValue> value;
     std::string where;
+    Origin origin = Origin::given;
   };
   friend class SceneReader;
 
@@ -133,6 +158,7 @@ class Scene {
   std::string file_, given_;
   ParameterTable table_;
   std::map<std::string, Entry> entries_;
+  std::map<std::string, std::size_t> counts_;  // of repeated sections
 };
 
 }  // namespace crumble

@@ -50,12 +50,25 @@ std::string shown(std::string_view text) {
   return text.size() > 60 ? out + "..." : out;
 }
 
+std::optional<std::vector<double>> numbers_in(const toml::array& array) {
+  std::vector<double> numbers;
+  for (const auto& element : array) {
+    const auto number = element.value<double>();
+    if (!element.is_number() || !number) return std::nullopt;
+    numbers.push_back(*number);
+  }
+  return numbers;
+}
+
 std::string shown(const toml::node& node) {
   if (const auto* v = node.as_floating_point()) return toml_text(v->get());
   if (const auto* v = node.as_integer()) return toml_text(v->get());
   if (const auto* v = node.as_boolean()) return toml_text(v->get());
   if (const auto* v = node.as_string()) return '"' + shown(v->get()) + '"';
-  if (node.is_array()) return "an array";
+  if (const auto* array = node.as_array()) {
+    if (const auto numbers = numbers_in(*array)) return shown(toml_text(*numbers));
+    return "an array";
+  }
   if (node.is_table()) return "a table";
   return "a date or time";
 }
@@ -114,11 +127,16 @@ Override parse_override(const std::string& argument) {
 
 class SceneReader {
  public:
-  SceneReader(const std::string& text, const std::string& file, const ParameterTable& table) {
+  SceneReader(const std::string& text, const std::string& file, const ParameterTable& table, bool stored = false)
+      : stored_(stored) {
     scene_.file_ = file, scene_.given_ = text, scene_.table_ = table;
     for (const auto& section : table) {
       section_names_.push_back(section.name);
-      for (const auto& p : section.parameters) declare(section.name + "." + p.name, p);
+      for (const auto& key : section.former) former_[key] = fmt::format("[[{}]]", section.name);
+      for (const auto& p : section.parameters) {
+        for (const auto& key : p.former) former_[key] = section.name + "." + p.name;
+        if (!section.repeated) declare(section.name + "." + p.name, p);
+      }
     }
   }
 
@@ -138,6 +156,8 @@ class SceneReader {
   }
 
   void apply(const Override& change) {
+    if (const Section* section = repeated(change.key)) return apply_repeated(change, *section);
+    if (former_.contains(change.key)) return renamed(change.origin, change.key);
     if (!scene_.entries_.contains(change.key)) return unknown_key(change.origin, change.key);
     Scene::Entry& entry = scene_.entries_.at(change.key);
     const auto& words = entry.parameter.choices;
@@ -159,6 +179,7 @@ class SceneReader {
     for (auto& [key, entry] : scene_.entries_) {
       if (!entry.where.empty()) continue;
       entry.where = "default";
+      entry.origin = Scene::Origin::by_default;
       entry.value = entry.parameter.fallback;
       if (!entry.value && !entry.parameter.is_optional)
         wrong_.push_back(fmt::format("{}: '{}' is missing; it must be {} ({})", scene_.file_, key,
@@ -188,6 +209,8 @@ class SceneReader {
         return 1;
       case Parameter::Kind::flag:
         return 2;
+      case Parameter::Kind::list:
+        return 4;
       default:
         return 3;
     }
@@ -197,8 +220,14 @@ class SceneReader {
     for (const auto& [toml_key, node] : table) {
       const std::string key = prefix + std::string(toml_key.str());
       const std::string where = fmt::format("{}:{}", scene_.file_, toml_key.source().begin.line);
-      if (scene_.entries_.contains(key))
+      if (const Section* section = repeated(key))
+        read_repeated(node, *section, where);
+      else if (scene_.entries_.contains(key))
         read_value(node, key, where);
+      else if (former_.contains(key))
+        stored_ ? read_former(node, former_.at(key), where) : renamed(where, key);
+      else if (node.is_table() && leads_to_former_key(key))
+        read_table(*node.as_table(), key + ".");
       else if (!leads_to_section(key))
         node.is_table() ? unknown_section(where, key) : unknown_key(where, key);
       else if (node.is_table())
@@ -212,6 +241,59 @@ class SceneReader {
   bool leads_to_section(const std::string& key) const {
     return std::any_of(section_names_.begin(), section_names_.end(),
                        [&](const std::string& name) { return name == key || name.starts_with(key + "."); });
+  }
+
+  bool leads_to_former_key(const std::string& key) const {
+    return !leads_to_section(key) &&
+           std::any_of(former_.begin(), former_.end(), [&](const auto& f) { return f.first.starts_with(key + "."); });
+  }
+
+  void renamed(const std::string& where, const std::string& key) {
+    wrong_.push_back(fmt::format("{}: '{}' is now called '{}'", where, key, former_.at(key)));
+  }
+
+  // A value of an earlier version that has another form now is left out: the default stands.
+  void read_former(const toml::node& node, const std::string& key, const std::string& where) {
+    if (!scene_.entries_.contains(key)) return;
+    const std::size_t complaints = wrong_.size();
+    read_value(node, key, where);
+    if (wrong_.size() == complaints) return;
+    wrong_.resize(complaints);
+    scene_.entries_.at(key).where.clear();
+  }
+
+  const Section* repeated(const std::string& key) const {
+    for (const Section& section : scene_.table_)
+      if (section.repeated && section.name == key) return &section;
+    return nullptr;
+  }
+
+  void read_repeated(const toml::node& node, const Section& section, const std::string& where) {
+    const auto* array = node.as_array();
+    if (!array || !std::all_of(array->begin(), array->end(), [](const toml::node& n) { return n.is_table(); })) {
+      wrong_.push_back(fmt::format("{}: '{}' must be tables: write [[{}]] and its keys below, once for each", where,
+                                   section.name, section.name));
+      return;
+    }
+    for (std::size_t k = 0; k < array->size(); ++k) {
+      const std::string prefix = fmt::format("{}[{}].", section.name, k);
+      for (const auto& p : section.parameters) declare(prefix + p.name, p);
+      scene_.counts_[section.name] = k + 1;
+      read_table(*array->get(k)->as_table(), prefix);
+    }
+  }
+
+  // Takes the place of all that the scene says.
+  void apply_repeated(const Override& change, const Section& section) {
+    std::erase_if(scene_.entries_, [&](const auto& entry) { return entry.first.starts_with(section.name + "["); });
+    scene_.counts_.erase(section.name);
+    try {
+      const toml::table parsed = toml::parse("value = " + change.value);
+      if (parsed.size() == 1) return read_repeated(*parsed.get("value"), section, change.origin);
+    } catch (const toml::parse_error&) {
+    }
+    wrong_.push_back(fmt::format("{}: {} = {}: must be tables, written [{{kind = \"ramp\", rate = 5000}}]", change.origin,
+                                 section.name, shown(change.value)));
   }
 
   void unknown_key(const std::string& where, const std::string& key) {
@@ -239,6 +321,8 @@ class SceneReader {
     if (kind == Parameter::Kind::real && node.is_integer()) value = static_cast<double>(node.as_integer()->get());
     if (kind == Parameter::Kind::integer && node.is_integer()) value = node.as_integer()->get();
     if (kind == Parameter::Kind::flag && node.is_boolean()) value = node.as_boolean()->get();
+    if (kind == Parameter::Kind::list && node.is_array())
+      if (auto numbers = numbers_in(*node.as_array())) value = std::move(*numbers);
     if ((kind == Parameter::Kind::choice || kind == Parameter::Kind::text || !entry.parameter.choices.empty()) &&
         node.is_string())
       value = node.as_string()->get();
@@ -251,10 +335,13 @@ class SceneReader {
     if (const auto complaint = entry.parameter.complaint(value)) return complain(where, key, found, *complaint);
     entry.value = value;
     entry.where = where;
+    entry.origin = Scene::Origin::given;
   }
 
   Scene scene_;
+  bool stored_ = false;  // a resolved scene out of a file
   std::vector<std::string> keys_, section_names_, wrong_;
+  std::map<std::string, std::string> former_;  // former names -> what they are called now
 };
 
 Scene Scene::parse(const std::string& text, const std::string& file, const ParameterTable& table,
@@ -262,6 +349,12 @@ Scene Scene::parse(const std::string& text, const std::string& file, const Param
   SceneReader reader(text, file, table);
   reader.read_file();
   for (const auto& change : overrides) reader.apply(change);
+  return reader.finish();
+}
+
+Scene Scene::parse_stored(const std::string& text, const std::string& file, const ParameterTable& table) {
+  SceneReader reader(text, file, table, true);
+  reader.read_file();
   return reader.finish();
 }
 

@@ -22,6 +22,11 @@ nlohmann::ordered_json& place(nlohmann::ordered_json& results, const std::string
   return dot == std::string::npos ? results[name] : place(results[name.substr(0, dot)], name.substr(dot + 1));
 }
 
+nlohmann::ordered_json as_json(const std::optional<ParameterValue>& value) {
+  if (!value) return nullptr;
+  return std::visit([](const auto& x) { return nlohmann::ordered_json(x); }, *value);
+}
+
 // Largest resident memory of this program, bytes. Not that of getrusage, which goes on from the program that started
 // this one. -1 where the system does not tell.
 std::int64_t peak_memory() {
@@ -48,6 +53,15 @@ void Report::error(const std::string& name, std::optional<double> value, const s
   errors_.push_back({name, value, how});
 }
 
+void Report::input(const std::string& key, std::optional<ParameterValue> value) {
+  inputs_.emplace_back(key, std::move(value));
+}
+
+void Report::granule(const std::string& key, std::optional<ParameterValue> value, const std::string& from,
+                     std::optional<double> in_file) {
+  granule_.push_back({key, std::move(value), from, in_file});
+}
+
 std::string Report::json() const {
   nlohmann::ordered_json out;
   out["program"] = program_;
@@ -57,6 +71,13 @@ std::string Report::json() const {
     out["seed"] = *seed_;
   else
     out["seed"] = nullptr;
+  for (const auto& [key, value] : inputs_) place(out["inputs"], key) = as_json(value);
+  for (const Travelling& t : granule_) {
+    auto& entry = place(out["granule"], t.key);
+    entry["value"] = as_json(t.value ? t.value : t.in_file ? std::optional<ParameterValue>(*t.in_file) : std::nullopt);
+    entry["from"] = t.from;
+    if (t.in_file) entry["in_file"] = *t.in_file;
+  }
   const Cost cost = meter_.used();
   out["wall_s"] = cost.wall_s;
   out["cpu_s"] = cost.cpu_s;

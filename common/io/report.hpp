@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/io/cost.hpp"
+#include "common/io/parameters.hpp"
 
 namespace crumble {
 
@@ -35,11 +36,23 @@ class Report {
   // how it was estimated, or why not.
   void error(const std::string& name, std::optional<double> value, const std::string& how);
 
+  // A parameter of the scene, by its full name; nothing if it is not set.
+  void input(const std::string& key, std::optional<ParameterValue> value);
+  // One that travels with the granule: what it is taken from ("scene", "file", "default") and what the file says.
+  void granule(const std::string& key, std::optional<ParameterValue> value, const std::string& from,
+               std::optional<double> in_file);
+
   std::string json() const;
   // A half-written report never looks finished. No name: none is wanted.
   void write(const std::string& file) const;
 
  private:
+  struct Travelling {
+    std::string key;
+    std::optional<ParameterValue> value;
+    std::string from;
+    std::optional<double> in_file;
+  };
   struct Error {
     std::string name;
     std::optional<double> value;
@@ -50,6 +63,8 @@ class Report {
   CostMeter meter_;
   std::vector<std::pair<std::string, Value>> results_;
   std::vector<Error> errors_;
+  std::vector<std::pair<std::string, std::optional<ParameterValue>>> inputs_;
+  std::vector<Travelling> granule_;
 };
 
 }  // namespace crumble

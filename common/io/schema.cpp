@@ -45,6 +45,17 @@ constexpr auto rows = std::to_array<Entry>({
   {"/particles/all/species", dataset, i32, "N", "", all, "kind of particle, 0 unless there are several"},
   {"/particles/trajectory", link, no_type, "", "", all, "soft link to `all`, the name under which MDAnalysis looks"},
 
+  // What the particles are made of and the liquid around them: what the next stage takes. Since version 1.1
+  {"/material/youngs_modulus", dataset, f64, "", "Pa", none, "elastic modulus", "E", ""},
+  {"/material/poisson_ratio", dataset, f64, "", "", none, "Poisson ratio", "nu", ""},
+  {"/material/surface_energy", dataset, f64, "", "J m-2", none, "superficial energy of one surface", "gamma_s", ""},
+  {"/material/density", dataset, f64, "", "kg m-3", none, "density of the particles"},
+  {"/material/sliding_limit_factor", dataset, f64, "", "", none, "of the critical sliding force", "", "14"},
+  {"/material/twisting_limit_factor", dataset, f64, "", "", none, "of the critical twisting torque", "", "17"},
+  {"/material/rolling_limit_factor", dataset, f64, "", "", none, "of the critical rolling torque", "", "21"},
+  {"/material/rolling_stiffness_factor", dataset, f64, "", "", none, "of the rolling stiffness", "", "20"},
+  {"/fluid/viscosity", dataset, f64, "", "Pa s", none, "viscosity of the liquid", "mu", ""},
+
   // Contacts, all frames one after the other
   {"/connectivity/contacts", dataset, i32, "L 2", "", all, "pairs of the last frame, as H5MD has bonds"},
   {"/contacts/offset", dataset, i64, "T+1", "", all, "contacts of frame t are rows offset[t] to offset[t+1]-1"},
@@ -119,7 +130,7 @@ constexpr auto rows = std::to_array<Entry>({
   {"/flows/<name>/critical_stress", dataset, f64, "", "Pa", none, "viscosity times shear rate that breaks a contact"},
 
   // Breakup
-  {"/flow@type", attribute, str, "", "", none, "kind of flow", "", "", "quiescent|elongational|shear|uniaxial|biaxial|history"},
+  {"/flow@type", attribute, str, "", "", none, "kind of flow", "", "", "quiescent|elongation|elongational|shear|uniaxial|biaxial|history"},
   {"/flow/gradient", dataset, f64, "3 3", "", none, "velocity gradient for unit shear rate, row i, column j: du_i/dx_j"},
   {"/events/time", dataset, f64, "E", "s", none, "instants, in order"},
   {"/events/stress", dataset, f64, "E", "Pa", none, "flow stress at each"},

@@ -2,12 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <ostream>
-#include <stdexcept>
 
 #include "common/agglomerate/morphology.hpp"
-#include "common/io/agglomerate_writer.hpp"
+#include "common/io/granule.hpp"
 
 namespace crumble::tool {
 namespace {
@@ -41,50 +39,43 @@ OwnedOutputs own_output(const std::string& output, const std::string& input) {
   return {{{.what = "agglomerate: -o", .name = output}}, {{"the input", input}}};
 }
 
-void tell(std::ostream& out, const Particles& particles, const Closed& closed) {
-  const std::vector<Contact>& contacts = closed.frame.contacts;
+void tell(std::ostream& out, const Rescaled& r) {
+  const Particles& particles = r.agglomerate.particles;
+  const std::vector<Contact>& contacts = r.agglomerate.state.contacts;
   out << fmt::format("  contacts: {}, coordination {:.3f}; largest move in closing them {:.3g} nm\n", contacts.size(),
-                     coordination_number(particles.size(), contacts.size()), 1e9 * closed.largest_move);
+                     coordination_number(particles.size(), contacts.size()), 1e9 * r.largest_move);
   out << fmt::format(
       "  residual self-stress, in pull-off forces: rms {:.3g}, largest tension {:.3g}, largest compression {:.3g}\n",
-      closed.tension_rms, closed.tension_max, closed.compression_max);
-  out << fmt::format("  distance from the equilibrium gap: rms {:.3g} nm, largest {:.3g} nm\n",
-                     1e9 * closed.residual_rms, 1e9 * closed.residual_max);
-  tell_pairs(out, particles, "contacts lost (open beyond the pull-off gap)", closed.lost);
-  tell_pairs(out, particles, "overlapping pairs that are not contacts", closed.unlisted);
+      r.self_stress.rms_use, r.largest_tension, r.largest_compression);
+  out << fmt::format("  distance from the equilibrium gap: rms {:.3g} nm, largest {:.3g} nm\n", 1e9 * r.gap_rms,
+                     1e9 * r.gap_max);
+  tell_pairs(out, particles, "contacts lost (open beyond the pull-off gap)", r.lost);
+  out << fmt::format("  new contacts (pairs that closing brought to overlap): {}\n", r.made);
 }
 
-void write_closed(const std::string& file, const Particles& particles, const Closed& closed,
-                  const Provenance& provenance, const std::string& settings, std::optional<double> scale) {
-  if (!closed.converged) {
-    throw std::runtime_error(fmt::format(
-        "{}: not written: closing the contacts did not converge in {} steps (a smaller --contact-tolerance takes "
-        "fewer doubtful pairs for contacts)",
-        file, closed.iterations));
-  }
+void write_closed(const std::string& file, const Rescaled& r, const Provenance& provenance,
+                  const std::string& settings, const Properties& properties) {
+  const Particles& particles = r.agglomerate.particles;
   FileDescription description;
   description.stage = "agglomerate";
   description.provenance = provenance;
   description.resolved = settings;
   AgglomerateWriter writer(followed(file), particles, description);
-  writer.append(closed.frame);
-  double squares = 0, largest = 0;
-  for (const Contact& c : closed.frame.contacts) {
-    squares += c.normal_force * c.normal_force;
-    largest = std::max(largest, std::abs(c.normal_force));
-  }
-  const auto count = static_cast<double>(std::max<std::size_t>(1, closed.frame.contacts.size()));
-  writer.put("/closing/residual_rms", std::sqrt(squares / count));
-  writer.put("/closing/residual_max", largest);
-  writer.put("/closing/lost_contacts", static_cast<double>(closed.lost.size()));
-  if (scale) writer.put("/closing/scale", *scale);
-  write_morphology(writer, particles, closed.frame);
+  writer.append(r.agglomerate.state);
+  writer.put("/closing/residual_rms", r.self_stress.rms);
+  writer.put("/closing/residual_max", r.self_stress.max);
+  writer.put("/closing/lost_contacts", static_cast<double>(r.lost.size()));
+  writer.put("/closing/scale", r.scale);
+  write_properties(writer, properties);
+  write_morphology(writer, particles, r.agglomerate.state);
   writer.finish("relaxed");
 }
 
 std::string material_text(const Material& m) {
-  return fmt::format("[material]\nyoungs_modulus = {:e}  # Pa\npoisson_ratio = {}\nsurface_energy = {:e}  # J/m^2\n",
-                     m.youngs_modulus, m.poisson_ratio, m.surface_energy);
+  return fmt::format(
+      "[material]\nyoungs_modulus = {:e}  # Pa\npoisson_ratio = {}\nsurface_energy = {:e}  # J/m^2\n"
+      "density = {}  # kg/m^3\n",
+      m.youngs_modulus, m.poisson_ratio, m.surface_energy, m.density);
 }
 
 }  // namespace crumble::tool

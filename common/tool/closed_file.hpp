@@ -2,11 +2,11 @@
 #pragma once
 
 #include <iosfwd>
-#include <optional>
 #include <string>
 
-#include "common/agglomerate/closing.hpp"
+#include "common/agglomerate/rescaled.hpp"
 #include "common/io/output_lock.hpp"
+#include "common/io/properties.hpp"
 #include "common/io/provenance.hpp"
 
 namespace crumble::tool {
@@ -14,12 +14,11 @@ namespace crumble::tool {
 // Throws InputError if the output cannot be written, is the input or is being written by another.
 OwnedOutputs own_output(const std::string& output, const std::string& input);
 
-// Self-stress that remains, contacts that were lost and strangers that overlap, in words.
-void tell(std::ostream& out, const Particles& particles, const Closed& closed);
+// Self-stress that remains, contacts that were lost and pairs that came to touch, in words.
+void tell(std::ostream& out, const Rescaled& result);
 
-// Throws if the closing did not converge: then there is no result.
-void write_closed(const std::string& file, const Particles& particles, const Closed& closed,
-                  const Provenance& provenance, const std::string& settings, std::optional<double> scale);
+void write_closed(const std::string& file, const Rescaled& result, const Provenance& provenance,
+                  const std::string& settings, const Properties& properties);
 
 // The material as a TOML section, for the file's record of what it was made with.
 std::string material_text(const Material& material);

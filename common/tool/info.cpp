@@ -44,6 +44,7 @@ nlohmann::ordered_json as_json(const std::string& file, const FileInfo& info, co
           {"first_time_s", info.first_time},
           {"last_time_s", info.last_time},
           {"bytes", info.bytes},
+          {"made_of", info.properties},
           {"provenance", from}};
 }
 
@@ -62,6 +63,10 @@ void as_text(std::ostream& out, const std::string& file, const FileInfo& info, c
   line("frames", info.frames == 1 ? fmt::format("1, step {} at {:.6g} s", info.last_step, info.last_time)
                                   : fmt::format("{}, steps {} to {}, {:.6g} to {:.6g} s", info.frames, info.first_step,
                                                 info.last_step, info.first_time, info.last_time));
+  std::string made_of;
+  for (const auto& [key, value] : info.properties)
+    made_of += fmt::format("{}{} = {:g}", made_of.empty() ? "" : ", ", key, value);
+  line("made of", made_of);
   line("format", fmt::format("{}.{}, {} bytes", info.version_major, info.version_minor, info.bytes));
   line("made by", fmt::format("{} {}, commit {}{}", p.program, p.version, p.git, p.dirty ? " with changes" : ""));
   line("built with", p.compiler + " " + p.flags);

@@ -101,13 +101,14 @@ class Verb {
     app_->add_flag(flag, value, meaning);
     return *this;
   }
-  // What the equilibrium gap follows from.
-  Verb& material(Raw& raw) {
+  // What the equilibrium gap follows from, and what later stages take.
+  Verb& material(Raw& raw, const std::string& otherwise = "") {
     const Material table_1;
-    return text(raw.youngs_modulus, "--youngs-modulus", "PA", fmt::format("E, default {:g}", table_1.youngs_modulus))
-        .text(raw.poisson_ratio, "--poisson-ratio", "NU", fmt::format("default {:g}", table_1.poisson_ratio))
+    const auto without = [&](double value) { return fmt::format("; without it {}{:g}", otherwise, value); };
+    return text(raw.youngs_modulus, "--youngs-modulus", "PA", "E" + without(table_1.youngs_modulus))
+        .text(raw.poisson_ratio, "--poisson-ratio", "NU", "nu" + without(table_1.poisson_ratio))
         .text(raw.surface_energy, "--surface-energy", "J/M2",
-              fmt::format("gamma_s of one surface, default {:g}", table_1.surface_energy));
+              "gamma_s of one surface" + without(table_1.surface_energy));
   }
 
  private:
@@ -164,20 +165,20 @@ void declare(CLI::App& app, Raw& raw) {
       .files(raw, "FILE.h5", "an agglomerate file")
       .text(raw.output, "-o,--output", "OUT.h5", "where the scaled agglomerate goes", true)
       .text(raw.radius, "--radius", "R_NM", "new radius (mean radius, if they differ), nm", true)
-      .material(raw);
+      .material(raw, "that of the file or ");
   Verb(app, "schema", "print the page that documents the file format", "Example:\n  agglomerate schema > SCHEMA.md");
 }
 
-Material material_of(const std::string& verb, const Raw& raw) {
-  Material m;
-  if (!raw.youngs_modulus.empty()) {
-    m.youngs_modulus = number(verb, "--youngs-modulus", raw.youngs_modulus, 0, true);
-  }
-  if (!raw.poisson_ratio.empty()) m.poisson_ratio = number(verb, "--poisson-ratio", raw.poisson_ratio, 0, false, 0.5);
-  if (!raw.surface_energy.empty()) {
-    m.surface_energy = number(verb, "--surface-energy", raw.surface_energy, 0, true);
-  }
-  if (!raw.density.empty()) m.density = number(verb, "--density", raw.density, 0, true);
+// What was typed of it.
+Properties material_of(const std::string& verb, const Raw& raw) {
+  Properties m;
+  if (!raw.youngs_modulus.empty())
+    m["material.youngs_modulus"] = number(verb, "--youngs-modulus", raw.youngs_modulus, 0, true);
+  if (!raw.poisson_ratio.empty())
+    m["material.poisson_ratio"] = number(verb, "--poisson-ratio", raw.poisson_ratio, 0, false, 0.5);
+  if (!raw.surface_energy.empty())
+    m["material.surface_energy"] = number(verb, "--surface-energy", raw.surface_energy, 0, true);
+  if (!raw.density.empty()) m["material.density"] = number(verb, "--density", raw.density, 0, true);
   return m;
 }
 
@@ -208,11 +209,10 @@ Options interpret(const std::string& verb, const Raw& raw) {
       throw misuse(verb, "--radius " + raw.radius + " nm: " + wrong);
     return ScaleOptions{file, raw.output, radius, material_of(verb, raw)};
   }
-  ImportFileOptions import{file, raw.output, {}};
+  ImportFileOptions import{file, raw.output, {}, material_of(verb, raw)};
   import.how.unit = unit_named(raw.unit);
   if (!raw.radius.empty()) import.how.radius = import.how.unit * number(verb, "--radius", raw.radius, 0, true);
   import.how.contact_tolerance = number(verb, "--contact-tolerance", raw.tolerance, 0, false, 0.5);
-  import.how.material = material_of(verb, raw);
   return import;
 }
 

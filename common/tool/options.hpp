@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/agglomerate/import.hpp"
+#include "common/io/properties.hpp"
 
 namespace crumble::tool {
 
@@ -31,7 +32,8 @@ struct InfoOptions {
 };
 struct ImportFileOptions {
   std::string input, output;
-  ImportOptions how;
+  ImportOptions how;    // but for its material
+  Properties material;  // what was typed of it
 };
 struct ExportOptions {
   std::string input, output;
@@ -44,8 +46,8 @@ struct MorphologyOptions {
 };
 struct ScaleOptions {
   std::string input, output;
-  double radius = 0;  // m
-  Material material;
+  double radius = 0;    // m
+  Properties material;  // what was typed of it
 };
 struct SchemaOptions {};
 

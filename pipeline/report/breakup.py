@@ -42,8 +42,11 @@ def main(path):
     if result["first_rupture_stress_pa"] is not None:
         print(f"{'first contact breaks':34} {result['first_rupture_stress_pa']:.0f} Pa")
     if rigid.exists():
-        elongation = json.loads(rigid.read_text())["results"]["elongation"]
-        print(f"{'rigid prediction, planar elongation':34} {elongation['critical_stress_settled_pa']:.0f} Pa")
+        loads = json.loads(rigid.read_text())["results"]
+        for flow in ("elongation", "shear", "uniaxial", "biaxial"):
+            stress = loads.get(flow, {}).get("critical_stress_pa" if flow == "shear" else "critical_stress_settled_pa")
+            if stress is not None:
+                print(f"{'rigid prediction, ' + flow:34} {stress:.0f} Pa")
     print(f"{'breakage':34} {result['breakage']}")
     print(f"{'contacts':34} {result['contacts_initial']} -> {result['contacts_at_breakup']}")
     for name, key in (("radius of gyration", "rg_change_relative"),

@@ -44,8 +44,8 @@ def accessible(radius, droplet, tension, temperature):
 
 def liquid(of):
     """Of a scene: what the tension of the surface is worth on a sphere (Eq. 8 with the factor of the contact angle), N/m, and kelvins."""
-    angle = math.radians(scene.number(of, "liquid", "contact_angle"))
-    return scene.number(of, "liquid", "surface_tension") * math.cos(angle / 2) ** 2, scene.number(of, "liquid", "temperature")
+    angle = math.radians(scene.number(of, "fluid", "contact_angle"))
+    return scene.number(of, "fluid", "surface_tension") * math.cos(angle / 2) ** 2, scene.number(of, "fluid", "temperature")
 
 
 def read(names):
@@ -60,7 +60,7 @@ def read(names):
             for wanted in THETA:
                 frame = int(numpy.abs(theta - wanted).argmin())
                 if abs(theta[frame] - wanted) > 0.005:
-                    sys.exit(f"{name}: no frame at theta = {wanted}; set output.theta = \"0.2, 0.4\" in its scene")
+                    sys.exit(f"{name}: no frame at theta = {wanted}; set output.theta = [0.2, 0.4] in its scene")
                 r = 1e-9 * numpy.linalg.norm(file["particles/all/position/value"][frame], axis=1)
                 found.setdefault(wanted, (R[frame], []))[1].append(numpy.sort(r))
     if len(kinds) > 1:

@@ -9,8 +9,13 @@ def resolved(file):
     return tomllib.loads(file["parameters/resolved"].asstr()[()])
 
 
+FORMER = {"fluid": "liquid"}  # section names of files before schema version 1.1
+
+
 def number(scene, section, key):
     """Numbers that a scene may leave to a law have to be stated here."""
+    if key not in scene.get(section, {}):
+        section = FORMER.get(section, section)
     value = scene[section][key]
     if isinstance(value, str):
         sys.exit(f'{section}.{key} = "{value}": a number is needed here')

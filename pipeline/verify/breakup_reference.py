@@ -49,19 +49,19 @@ def main():
 
         def run(name, stages, *settings):
             report = folder / f"{name}.json"
-            chosen = [f"protocol.stages={stages}", "error.estimate=false", *settings]
+            chosen = ["protocol.stage=[" + ", ".join(stages) + "]", "error.estimate=false", *settings]
             subprocess.run([BIN / "breaker", SCENE, start, "-o", folder / f"{name}.h5", "--report", report, "--quiet",
                             *[a for s in chosen for a in ("--set", s)]], check=True, capture_output=True)
             return json.loads(report.read_text())
 
-        estimate = run("estimate", f"ramp {RATE}")["results"]["critical_stress_pa"]
+        estimate = run("estimate", [f'{{kind="ramp", rate={RATE}}}'])["results"]["critical_stress_pa"]
         stresses = [0.95 * estimate * k / 50 for k in range(1, 51)]
         # A stage for every common stress, so that both integrators stop there; frames at each.
         stages, before = [], 0
         for stress in stresses:
-            stages.append(f"ramp {RATE} from {before!r} to {stress!r}")
+            stages.append(f'{{kind="ramp", rate={RATE}, from={before!r}, to={stress!r}}}')
             before = stress
-        stages = "; ".join([*stages, f"ramp {RATE} from {before!r}"])
+        stages.append(f'{{kind="ramp", rate={RATE}, from={before!r}}}')
         frames = "output.frame_interval=1e-3"
         fast = run("implicit", stages, frames, "integrator.tolerance=0.001")
         slow = run("explicit", stages, "output.frame_interval=1", "integrator.method=explicit")

@@ -12,7 +12,7 @@ from table import print_markdown
 # name of the files: (what is chosen, settings); the longest first
 CHOICES = {
     "brownian_fine": ("half the step", {"integrator.contact_step": 0.075}),
-    "brownian_tension_x3": ("surface tension x 3", {"liquid.surface_tension": 5.25e-4}),
+    "brownian_tension_x3": ("surface tension x 3", {"fluid.surface_tension": 5.25e-4}),
     "brownian_everything": ("noise on dry particles, too", {"dry.everything_acts": "true"}),
     "brownian_adhesive_4": ("surface energy x 4, bond of 42 kT", {"material.surface_energy": 19.2e-3}),
     "brownian_adhesive_2": ("surface energy x 2, bond of 13 kT", {"material.surface_energy": 9.6e-3}),

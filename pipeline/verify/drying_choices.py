@@ -33,7 +33,7 @@ CHOICES = {
     "no_sliding": ("no rolling, twisting or sliding resistance",
                    {**NO_ROLLING, "contact.sliding_limit_factor": 0}, "default"),
     "soft_100": ("rolling x 0.44, E/100, same rolling limit", SOFT_100, "rolling"),
-    "tension": ("surface tension x 10", {"liquid.surface_tension": 1.75e-3}, "default"),
+    "tension": ("surface tension x 10", {"fluid.surface_tension": 1.75e-3}, "default"),
     "no_rolling": ("no rolling or twisting resistance", NO_ROLLING, "default"),
     "soft_10": ("rolling x 0.44, E/10, same rolling limit", SOFT_10, "rolling"),
     "inertial_no_twisting": ("rolling x 0.44, no twisting resistance, lifetime/10, inertial",

@@ -26,18 +26,18 @@ ImportOptions of_radius(double radius) {
 TEST(Import, NearPairsBecomeContactsAtEquilibrium) {
   const PointList p = parse_csv("x,y,z\n0,0,0\n20.1,0,0\n40.4,0,0\n60.9,0,0\n", "points.csv");
   const Imported r = import_points(p, of_radius(a));
-  ASSERT_EQ(r.closed.frame.contacts.size(), 1u);  // gaps 0.01 a, 0.03 a, 0.05 a
-  EXPECT_NEAR(r.closed.frame.contacts[0].gap, Jkr(Material(), a).equilibrium_gap, 1e-12 * a);
-  EXPECT_EQ(r.particles.radius, std::vector<double>(4, a));
-  EXPECT_NEAR(r.particles.mass[0], 1300 * 4 * std::numbers::pi / 3 * a * a * a, 1e-36);
-  EXPECT_EQ(r.particles.id, (std::vector<std::int64_t>{0, 1, 2, 3}));
+  ASSERT_EQ(r.closed.agglomerate.state.contacts.size(), 1u);  // gaps 0.01 a, 0.03 a, 0.05 a
+  EXPECT_NEAR(r.closed.agglomerate.state.contacts[0].gap, Jkr(Material(), a).equilibrium_gap, 1e-12 * a);
+  EXPECT_EQ(r.closed.agglomerate.particles.radius, std::vector<double>(4, a));
+  EXPECT_NEAR(r.closed.agglomerate.particles.mass[0], 1300 * 4 * std::numbers::pi / 3 * a * a * a, 1e-36);
+  EXPECT_EQ(r.closed.agglomerate.particles.id, (std::vector<std::int64_t>{0, 1, 2, 3}));
 }
 
 TEST(Import, ToleranceIsAFractionOfTheRadius) {
   const PointList p = parse_csv("x,y,z\n0,0,0\n20.1,0,0\n40.4,0,0\n60.9,0,0\n", "points.csv");
   ImportOptions options = of_radius(a);
   options.contact_tolerance = 0.04;
-  EXPECT_EQ(import_points(p, options).closed.frame.contacts.size(), 2u);
+  EXPECT_EQ(import_points(p, options).closed.agglomerate.state.contacts.size(), 2u);
 }
 
 TEST(Import, UnitsScaleTheWholeFile) {
@@ -45,10 +45,10 @@ TEST(Import, UnitsScaleTheWholeFile) {
   ImportOptions options;
   options.unit = 1e-6;
   const Imported r = import_points(micro, options);
-  EXPECT_NEAR(r.particles.radius[1], 2e-7, 1e-20);
-  ASSERT_EQ(r.closed.frame.contacts.size(), 1u);
+  EXPECT_NEAR(r.closed.agglomerate.particles.radius[1], 2e-7, 1e-20);
+  ASSERT_EQ(r.closed.agglomerate.state.contacts.size(), 1u);
   // Unequal spheres meet at the equilibrium of 2 R*, here 4/3 of the smaller radius.
-  EXPECT_NEAR(r.closed.frame.contacts[0].gap, Jkr(Material(), 4.0 / 3 * 1e-7).equilibrium_gap, 1e-12 * 1e-7);
+  EXPECT_NEAR(r.closed.agglomerate.state.contacts[0].gap, Jkr(Material(), 4.0 / 3 * 1e-7).equilibrium_gap, 1e-12 * 1e-7);
 }
 
 std::string complaint(const PointList& p, const ImportOptions& options) {
@@ -92,22 +92,22 @@ TEST(Import, AForgottenUnitIsNoticed) {
 
 TEST(Import, OneSphereIsAnAgglomerateWithoutContacts) {
   const Imported r = import_points(parse_xyz("1\n\nA 1 2 3\n", "p.xyz"), of_radius(a));
-  EXPECT_EQ(r.closed.frame.position.size(), 1u);
-  EXPECT_TRUE(r.closed.frame.contacts.empty());
+  EXPECT_EQ(r.closed.agglomerate.state.position.size(), 1u);
+  EXPECT_TRUE(r.closed.agglomerate.state.contacts.empty());
 }
 
 TEST(ExtendedXyz, WhatIsExportedImportsAsTheSameAgglomerate) {
   const PointList first = parse_csv("x,y,z,radius\n0,0,0,10\n25.1,0,0,15\n25,30.1,0,15\n25,30,35,20\n", "p.csv");
   const Imported once = import_points(first, {});
-  ASSERT_EQ(once.closed.frame.contacts.size(), 3u);
+  ASSERT_EQ(once.closed.agglomerate.state.contacts.size(), 3u);
   std::ostringstream text;
-  write_extended_xyz(text, once.particles, once.closed.frame);
+  write_extended_xyz(text, once.closed.agglomerate.particles, once.closed.agglomerate.state);
   const Imported twice = import_points(parse_xyz(text.str(), "p.xyz"), {});
-  ASSERT_EQ(twice.closed.frame.contacts.size(), 3u);
+  ASSERT_EQ(twice.closed.agglomerate.state.contacts.size(), 3u);
   for (std::size_t i = 0; i < 4; ++i) {
     // Through nm and back, then closed again: both round.
-    EXPECT_LT((twice.closed.frame.position[i] - once.closed.frame.position[i]).norm(), 1e-13 * a);
-    EXPECT_NEAR(twice.particles.radius[i], once.particles.radius[i], 1e-15 * a);
+    EXPECT_LT((twice.closed.agglomerate.state.position[i] - once.closed.agglomerate.state.position[i]).norm(), 1e-13 * a);
+    EXPECT_NEAR(twice.particles.radius[i], once.closed.agglomerate.particles.radius[i], 1e-15 * a);
   }
 }
 

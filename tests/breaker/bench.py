@@ -48,11 +48,11 @@ def main():
             for rate, controls in ramps:
                 rows = []
                 for control in controls:
-                    settings = [f"protocol.stages=rest 0.1; hold 2 for 0.1; ramp {PAPER * rate}", "error.estimate=false"]
+                    settings = [f'protocol.stage=[{{kind="rest", duration=0.1}}, {{kind="hold", stress=2, duration=0.1}}, {{kind="ramp", rate={PAPER * rate}}}]', "error.estimate=false"]
                     settings.append("integrator.method=explicit" if control == "explicit" else
                                     f"integrator.tolerance={control}")
                     if rate > 1:
-                        settings[0] = f"protocol.stages=ramp {PAPER * rate}"
+                        settings[0] = f'protocol.stage=[{{kind="ramp", rate={PAPER * rate}}}]'
                     report = folder / "report.json"
                     subprocess.run([breaker, str(SCENE), str(start), "-o", str(folder / "out.h5"), "--report",
                                     str(report), "--quiet", *[a for s in settings for a in ("--set", s)]],

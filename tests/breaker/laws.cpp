@@ -260,7 +260,7 @@ TEST(Alignment, OfADoubletTakesTheTimeThatJefferysOrbitTakes) {
 }
 
 TEST(Protocol, StagesFollowEachOther) {
-  const Protocol p = Protocol::parse("rest 0.1; hold 2 for 0.1; ramp 5000 from 100 to 200; hold 200 for 1", 2);
+  const Protocol p = Protocol({{0, 0, 0.2}, {2, 0, 0.2}, {100, 2500, 0.04}, {200, 0, 2}});
   EXPECT_EQ(p.stages().size(), 4u);
   EXPECT_DOUBLE_EQ(p.stress(0.1), 0);
   EXPECT_DOUBLE_EQ(p.stress(0.2), 2);
@@ -272,8 +272,8 @@ TEST(Protocol, StagesFollowEachOther) {
   EXPECT_NEAR(p.strain(0.44), 2 * 0.2 + 150 * 0.04, 1e-9);
 }
 
-TEST(Protocol, DefaultGivesTheStrainOfTheRamp) {
-  const Protocol p = Protocol::parse("rest 0.1; hold 2 for 0.1; ramp 5000");
+TEST(Protocol, ThePapersGivesTheStrainOfTheRamp) {
+  const Protocol p({{0, 0, 0.1}, {2, 0, 0.1}, {0, 5000}});
   // S^2/(2 r mu) at S = 1000 Pa, and 0.2 before.
   EXPECT_NEAR(p.strain(0.4), 100.2, 1e-9);
 }

@@ -97,6 +97,7 @@ TEST(BreakupRun, ThatHasEndedHasEndedAfterARestart) {
     BreakerScene scene;
     scene.model = elongation(Rung::fts);
     scene.protocol = Protocol({{0, 5e6}});
+    scene.largest_stress = 1e5;
     scene.largest_stress = largest;
     BreakupRun run(scene, doublet, 1);
     while (!run.finished()) run.step();

@@ -70,7 +70,7 @@ TEST(DryingInputs, a_fraction_of_solids_becomes_the_nearest_number_of_particles)
 }
 
 TEST(DryingInputs, water_takes_both_properties_from_the_temperature) {
-  const std::string water = "[liquid]\ntemperature = 330\nviscosity = \"water\"\nsurface_tension = \"water\"\n";
+  const std::string water = "[fluid]\ntemperature = 330\nviscosity = \"water\"\nsurface_tension = \"water\"\n";
   const DryingScene s = brownian("lifetime = 2.1e-3", water);
   EXPECT_EQ(s.model.viscosity, water_viscosity(330));
   EXPECT_EQ(s.model.droplet.surface_tension, water_surface_tension(330));
@@ -79,13 +79,13 @@ TEST(DryingInputs, water_takes_both_properties_from_the_temperature) {
 }
 
 TEST(DryingInputs, one_property_may_be_water_s_and_the_other_given) {
-  const DryingScene s = brownian("lifetime = 2.1e-3", "[liquid]\nviscosity = \"water\"\n");
+  const DryingScene s = brownian("lifetime = 2.1e-3", "[fluid]\nviscosity = \"water\"\n");
   EXPECT_EQ(s.model.viscosity, water_viscosity(300));
   EXPECT_EQ(s.model.droplet.surface_tension, 1.75e-4);
 }
 
 TEST(DryingInputs, a_contact_angle_weakens_the_capillary_force_and_leaves_the_liquid_its_surface_tension) {
-  const DryingScene s = brownian("lifetime = 2.1e-3", "[liquid]\ncontact_angle = 60\n");
+  const DryingScene s = brownian("lifetime = 2.1e-3", "[fluid]\ncontact_angle = 60\n");
   EXPECT_NEAR(s.model.droplet.surface_tension, 0.75 * 1.75e-4, 1.75e-4 * round_off);
   EXPECT_EQ(s.surface_tension, 1.75e-4);
   EXPECT_EQ(brownian("lifetime = 2.1e-3").model.droplet.surface_tension, 1.75e-4);

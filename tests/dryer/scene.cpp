@@ -50,9 +50,9 @@ INSTANTIATE_TEST_SUITE_P(
                   "drying.toml:3: particle.solids_fraction = 0.4: fills 40 %"},
         Malformed{"more_particles_than_numbers", "[particle]\nradius = 1e-10\nsolids_fraction = 0.25\n" DROPLET,
                   "means 2.48e+09 particles"},
-        Malformed{"theta_of_one", PARTICLE DROPLET "[output]\ntheta = \"0.2,1\"\n",
-                  "drying.toml:8: output.theta = \"0.2,1\": 1 is not between 0 and 1, both excluded"},
-        Malformed{"theta_in_words", PARTICLE DROPLET "[output]\ntheta = \"half\"\n", "'half' is not a number"},
+        Malformed{"theta_of_one", PARTICLE DROPLET "[output]\ntheta = [0.2, 1]\n",
+                  "drying.toml:8: output.theta = [0.2, 1.0]: 1.0 must be > 0 and < 1"},
+        Malformed{"theta_in_words", PARTICLE DROPLET "[output]\ntheta = \"half\"\n", "must be a list of numbers > 0 and < 1, written [0.2, 0.4]"},
         Malformed{"no_speed_of_drying", PARTICLE "[droplet]\nradius = 215e-9\n",
                   "drying.toml: the speed of drying is missing; give one of droplet.lifetime, "
                   "droplet.evaporation_constant, droplet.front_speed, droplet.peclet"},
@@ -66,13 +66,13 @@ INSTANTIATE_TEST_SUITE_P(
                   PARTICLE "brownian_motion = false\n[droplet]\nradius = 215e-9\npeclet = 1\n",
                   "drying.toml:7: droplet.peclet = 1.0: needs diffusion, but particle.brownian_motion = false "
                   "(drying.toml:4)"},
-        Malformed{"water_that_is_steam", PARTICLE DROPLET "[liquid]\ntemperature = 400\nviscosity = \"water\"\n",
-                  "drying.toml:8: liquid.temperature = 400.0 K: liquid.viscosity = \"water\" (drying.toml:9) is known "
+        Malformed{"water_that_is_steam", PARTICLE DROPLET "[fluid]\ntemperature = 400\nviscosity = \"water\"\n",
+                  "drying.toml:8: fluid.temperature = 400.0 K: fluid.viscosity = \"water\" (drying.toml:9) is known "
                   "from 253.15 to 383.15 K"},
-        Malformed{"water_that_is_ice", PARTICLE DROPLET "[liquid]\ntemperature = 240\nsurface_tension = \"water\"\n",
-                  "liquid.surface_tension = \"water\" (drying.toml:9) is known from 248.15 to 647.096 K"},
-        Malformed{"temperature_in_celsius", PARTICLE DROPLET "[liquid]\ntemperature = -5\n", "liquid.temperature"},
-        Malformed{"another_liquid", PARTICLE DROPLET "[liquid]\nviscosity = \"oil\"\n",
+        Malformed{"water_that_is_ice", PARTICLE DROPLET "[fluid]\ntemperature = 240\nsurface_tension = \"water\"\n",
+                  "fluid.surface_tension = \"water\" (drying.toml:9) is known from 248.15 to 647.096 K"},
+        Malformed{"temperature_in_celsius", PARTICLE DROPLET "[fluid]\ntemperature = -5\n", "fluid.temperature"},
+        Malformed{"another_liquid", PARTICLE DROPLET "[fluid]\nviscosity = \"oil\"\n",
                   "must be a number > 0 in Pa s, or \"water\""},
         Malformed{"particle_larger_than_droplet", "[particle]\nradius = 3e-7\nnumber = 1\n" DROPLET,
                   "drying.toml:2: particle.radius = 3e-07 m: no particle fits into droplet.radius = 2.15e-07 m "
@@ -87,8 +87,8 @@ INSTANTIATE_TEST_SUITE_P(
         Malformed{"too_many_large_particles",
                   PARTICLE "distribution = \"bimodal\"\nsecond_radius = 5e-8\nsecond_share = 0.5\n" DROPLET,
                   "particle.number = 115: fills 74 % of the droplet with solids"},
-        Malformed{"contact_angle_that_nothing_wets", PARTICLE DROPLET "[liquid]\ncontact_angle = 180\n",
-                  "liquid.contact_angle"},
+        Malformed{"contact_angle_that_nothing_wets", PARTICLE DROPLET "[fluid]\ncontact_angle = 180\n",
+                  "fluid.contact_angle"},
         Malformed{"too_many_particles", "[particle]\nradius = 10e-9\nnumber = 5000\n" DROPLET, "2982 particles"},
         Malformed{"step_beyond_stability", PARTICLE DROPLET "[integrator]\nmethod = \"inertial\"\nstep = 1e-9\n",
                   "beyond the stability limit"},
@@ -119,7 +119,7 @@ TEST(DryingScene, defaults_are_table_1_and_the_paper_s_equations) {
 }
 
 TEST(DryingScene, frames_at_given_theta_come_in_between_the_even_ones) {
-  const std::string text = good + "[output]\nframes = 1\ntheta = \"0.96, 0.36,0.75\"\n";
+  const std::string text = good + "[output]\nframes = 1\ntheta = [0.96, 0.36, 0.75]\n";
   const DryingScene s = drying_scene(Scene::parse(text, "drying.toml", drying_parameters()));
   ASSERT_EQ(s.frames.size(), 3u);  // R/R0 = 0.5 is both theta = 0.75 and the even one
   EXPECT_NEAR(s.frames[0], 0.2, 1e-12);

@@ -37,7 +37,7 @@ class Program(unittest.TestCase):
 
     def commands(self, output="o.h5", scene="scene.toml", agglomerate="chain.h5"):
         """Each program that writes, as quick as it can be."""
-        breaking = ["--set", "protocol.largest_stress=100", "--set", "protocol.stages=rest 0.1; ramp 50000",
+        breaking = ["--set", "protocol.largest_stress=100", "--set", 'protocol.stage=[{kind="rest", duration=0.1}, {kind="ramp", rate=50000}]',
                     "--set", "error.estimate=false", "--quiet"]
         return {
             "dryer": ["dryer", scene, "-o", output, "--set", "error.estimate=false", "--quiet", "--threads", 1],
@@ -234,7 +234,7 @@ class Program(unittest.TestCase):
             self.ends(ran, 2)
             return ran.stderr
         self.assertIn("if nanometres were meant, write 1e-08", refusal("particle.radius=10", "droplet.radius=120"))
-        self.assertIn("if degrees Celsius were meant, write 298.15", refusal("liquid.temperature=25"))
+        self.assertIn("if degrees Celsius were meant, write 298.15", refusal("fluid.temperature=25"))
         self.assertIn("makes contacts of b0 = 1.14 a", refusal("material.youngs_modulus=3.4e6"))
         self.assertIn("makes contacts of b0 = 114 a", refusal("material.youngs_modulus=3.4"))
         (self.folder / "metres.csv").write_text("x,y,z,radius\n0,0,0,1e-8\n2e-8,0,0,1e-8\n")

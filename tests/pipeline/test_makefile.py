@@ -139,9 +139,9 @@ class Stages(Sandbox):
         (self.root / "my granule.h5").write_text("x")
         done = self.make("stress", "AGGLOMERATE=my granule.h5", "THREADS=1")
         self.assertEqual(done.returncode, 0, done.stderr)
-        out = "pipeline/results/my granule-stress-elongation"
+        out = "pipeline/results/my granule-stress"
         self.assertEqual(self.called("rigidstress"),
-                         [f"rigidstress pipeline/scenes/stress-elongation.toml my granule.h5 -o {out}.h5 "
+                         [f"rigidstress pipeline/scenes/stress.toml my granule.h5 -o {out}.h5 "
                           f"--report {out}.json --threads 1"])
         self.forget()
         done = self.make("stress", "AGGLOMERATE=my granule.h5", "SCENE=pipeline/scenes/stress-shear.toml", "OUT=a.h5")
@@ -153,10 +153,11 @@ class Stages(Sandbox):
         (self.root / "my granule.h5").write_text("x")
         done = self.make("breakup", "AGGLOMERATE=my granule.h5", "THREADS=1", "PYTHON=echo table of")
         self.assertEqual(done.returncode, 0, done.stderr)
-        out = "pipeline/results/my granule-breakup"
-        self.assertEqual(self.called("breaker"), [f"breaker pipeline/scenes/breakup.toml my granule.h5 -o {out}.h5 "
+        out = "pipeline/results/my granule-break"
+        self.assertEqual(self.called("breaker"), [f"breaker pipeline/scenes/break.toml my granule.h5 -o {out}.h5 "
                                                   f"--report {out}.json --threads 1"])
-        self.assertIn(f"my granule.h5 -o {out}-rigid.h5", self.called("rigidstress")[0])
+        self.assertIn(f"rigidstress {out}-rigid.toml my granule.h5 -o {out}-rigid.h5", self.called("rigidstress")[0])
+        self.assertIn(f"pipeline/report/rigid_scene.py {out}.h5", (self.root / f"{out}-rigid.toml").read_text())
         self.assertIn(f"table of pipeline/report/breakup.py {out}.h5", done.stdout)
         self.assertIn("which agglomerate?", self.make("breakup").stderr)
 

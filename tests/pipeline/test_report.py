@@ -17,7 +17,7 @@ import concentration
 import table
 drying_map = importlib.import_module("map")  # not to hide the built-in
 
-SCENE = """[liquid]
+SCENE = """[fluid]
 temperature = {temperature}  # K
 surface_tension = {tension}  # N m-1
 contact_angle = {angle}  # degree
@@ -106,7 +106,7 @@ class Concentration(InAFolder):
             concentration.read([self.granule("a.h5"), self.granule("b.h5", "3e-04")])
 
     def test_a_liquid_that_a_law_gives_is_refused_by_name(self):
-        with self.assertRaisesRegex(SystemExit, 'liquid.surface_tension = "water"'):
+        with self.assertRaisesRegex(SystemExit, 'fluid.surface_tension = "water"'):
             concentration.read([self.granule("a.h5", '"water"')])
 
 

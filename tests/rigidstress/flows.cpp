@@ -23,7 +23,7 @@ const double unit = 6 * pi * testing::radius * testing::radius;
 
 TEST(Flows, DoubletSettlesAlongTheStretchingAxisAndBearsTheWorstThere) {
   const LoadedBody doublet = loaded(testing::chain(2), 6);
-  const StrainingResult r = straining(doublet, planar_elongation_gradient(), {});
+  const StrainingResult r = straining(doublet, unit_gradient(FlowKind::elongation), {});
   ASSERT_EQ(r.attractors.size(), 1u);
   EXPECT_NEAR(r.attractors[0].share, 1, 1e-12);
   EXPECT_EQ(r.unsettled, 0);
@@ -34,19 +34,19 @@ TEST(Flows, DoubletSettlesAlongTheStretchingAxisAndBearsTheWorstThere) {
 // A rod in uniaxial flow lies along the axis, where it is stretched; in biaxial flow across the axis, at any azimuth.
 TEST(Flows, DoubletInUniaxialAndBiaxialFlow) {
   const LoadedBody doublet = loaded(testing::chain(2), 2);
-  const StrainingResult uni = straining(doublet, uniaxial_gradient(), {}),
-                        bi = straining(doublet, biaxial_gradient(), {});
+  const StrainingResult uni = straining(doublet, unit_gradient(FlowKind::uniaxial), {}),
+                        bi = straining(doublet, unit_gradient(FlowKind::biaxial), {});
   EXPECT_NEAR(uni.attractors.at(0).peak.tension, uni.worst.tension, 1e-9 * uni.worst.tension);
   EXPECT_NEAR(bi.attractors.at(0).peak.tension, bi.worst.tension, 1e-9 * bi.worst.tension);
   // Strain along the rod per unit shear rate: 1/sqrt 3 and half of it, against 1/2 in planar elongation.
-  const double planar = straining(doublet, planar_elongation_gradient(), {}).worst.tension;
+  const double planar = straining(doublet, unit_gradient(FlowKind::elongation), {}).worst.tension;
   EXPECT_NEAR(uni.worst.tension, planar * 2 / std::sqrt(3.0), 1e-9 * planar);
   EXPECT_NEAR(bi.worst.tension, planar / std::sqrt(3.0), 1e-9 * planar);
 }
 
 TEST(Flows, UnitShearRateMeansTheSameInEveryFlow) {
   for (const Eigen::Matrix3d& g :
-       {planar_elongation_gradient(), simple_shear_gradient(), uniaxial_gradient(), biaxial_gradient()}) {
+       {unit_gradient(FlowKind::elongation), unit_gradient(FlowKind::shear), unit_gradient(FlowKind::uniaxial), unit_gradient(FlowKind::biaxial)}) {
     const Eigen::Matrix3d E = 0.5 * (g + g.transpose());
     EXPECT_NEAR(2 * E.squaredNorm(), 1, 1e-15);
     EXPECT_NEAR(g.trace(), 0, 1e-15);
@@ -54,7 +54,7 @@ TEST(Flows, UnitShearRateMeansTheSameInEveryFlow) {
 }
 
 TEST(Flows, OctahedronDoesNotTurnInStrain) {
-  const StrainingResult r = straining(loaded(testing::octahedron(), 1), planar_elongation_gradient(), {});
+  const StrainingResult r = straining(loaded(testing::octahedron(), 1), unit_gradient(FlowKind::elongation), {});
   EXPECT_FALSE(r.is_turning);
   EXPECT_EQ(r.unsettled, 0);
 }
@@ -82,7 +82,7 @@ TEST(Flows, DoubletInTheFlowPlaneReachesTheSupremum) {
   const LoadedBody doublet = loaded(testing::chain(2), 8);
   std::vector<double> times;
   for (int k = 0; k <= 2000; ++k) times.push_back(0.01 * k);
-  const Orbit orbit = follow(doublet, Quaternion::Identity(), times, [](double) { return simple_shear_gradient(); });
+  const Orbit orbit = follow(doublet, Quaternion::Identity(), times, [](double) { return unit_gradient(FlowKind::shear); });
   EXPECT_NEAR(orbit.peak.tension / unit, 1.01936, 2e-4);
 }
 
@@ -91,7 +91,7 @@ TEST(Flows, OrientationErrorFollowsItsTolerance) {
   std::vector<double> times{0, 50};
   const auto end = [&](double tolerance) {
     return follow(
-               body, random_orientation(1, 0), times, [](double) { return simple_shear_gradient(); }, tolerance)
+               body, random_orientation(1, 0), times, [](double) { return unit_gradient(FlowKind::shear); }, tolerance)
         .orientation.back();
   };
   const Quaternion exact = end(1e-13);
@@ -132,7 +132,7 @@ TEST(History, SteadyShearFromAFileIsSteadyShear) {
   std::vector<double> times;
   for (int k = 0; k <= 200; ++k) times.push_back(0.1 * k);
   for (std::uint32_t k = 0; k < 3; ++k) {
-    const Orbit same = follow(doublet, random_orientation(1, k), times, [](double) { return simple_shear_gradient(); });
+    const Orbit same = follow(doublet, random_orientation(1, k), times, [](double) { return unit_gradient(FlowKind::shear); });
     EXPECT_NEAR(found.orbits[k].peak.tension, 100 * same.peak.tension, 1e-5 * 100 * same.peak.tension);
   }
 }

@@ -1,5 +1,5 @@
 // Loads of the contacts against statics, whatever the stiffnesses.
-#include "rigidstress/network.hpp"
+#include "common/rigid/network.hpp"
 
 #include <gtest/gtest.h>
 

@@ -90,15 +90,91 @@ class Program(unittest.TestCase):
         """A doublet along the vorticity spins there and bears no tension; one along the flow tumbles (Jeffery 1922)."""
         doublet = self.agglomerate([[0, 0, 0], [200, 0, 0]])
         along_vorticity, _, _ = self.stress(doublet, "hydrodynamics.method=fts",
-                                            "flow.orientation=0.7071067811865476, 0, -0.7071067811865476, 0")
-        along_flow, _, _ = self.stress(doublet, "hydrodynamics.method=fts", "flow.orientation=1,0,0,0")
+                                            "flow.orientation=[0.7071067811865476, 0, -0.7071067811865476, 0]")
+        along_flow, _, _ = self.stress(doublet, "hydrodynamics.method=fts", "flow.orientation=[1, 0, 0, 0]")
         self.assertLess(along_vorticity["results"]["shear"]["n_max_orbit"], 1e-9)
         # Somewhere on its way it lies at 45 degrees to the flow, where it bears what it does in elongation of that rate.
         self.assertAlmostEqual(along_flow["results"]["shear"]["n_max_orbit"], 20 / 21, delta=1e-3)
-        for wrong in ("1,0,0", "0,0,0,0", "1,0,nonsense,0"):
+        for wrong in ("[1, 0, 0]", "[0, 0, 0, 0]", "1,0,0,0", '[1, 0, "nonsense", 0]'):
             run = self.refused(doublet, "flow.orientation=" + wrong)
             self.assertEqual(run.returncode, 2)
             self.assertIn("flow.orientation", run.stderr)
+
+    SILICA = ("--youngs-modulus", "7e10", "--poisson-ratio", "0.17", "--surface-energy", "0.05")
+    SQUARE = [[0, 0, 0], [48, 0, 0], [48, 48, 0], [0, 48, 0], [24, 24, 33.94]]
+
+    def silica(self):
+        """A granule of 24 nm, imported with its material."""
+        table, out = self.folder / "silica.csv", self.folder / "silica.h5"
+        table.write_text("\n".join(["x,y,z"] + [",".join(map(str, x)) for x in self.SQUARE]) + "\n")
+        subprocess.run([AGGLOMERATE, "import", table, "-o", out, "--radius", "24", *self.SILICA], check=True, capture_output=True)
+        return out
+
+    def test_material_and_radius_are_those_of_the_file(self):
+        granule = self.silica()
+        report, run, out = self.stress(granule, scene="/dev/null")
+        first = run.stderr.splitlines()[0]
+        self.assertIn("radius 24 nm (file), scaled by 1, E 7e+10 Pa (file), nu 0.17 (file), gamma_s 0.05 J/m2 (file)", first)
+        self.assertIn("liquid 0.001 Pa s (default)", first)
+        self.assertEqual(report["inputs"]["material"]["surface_energy"], 0.05)
+        self.assertEqual(report["granule"]["material"]["surface_energy"], {"value": 0.05, "from": "file", "in_file": 0.05})
+        self.assertAlmostEqual(report["granule"]["particle"]["radius"]["in_file"], 24e-9, delta=1e-18)
+        with h5py.File(out) as file:
+            self.assertEqual(file["material/surface_energy"][()], 0.05)
+            self.assertEqual(file["material/density"][()], 1300)  # the scene does not know it: handed on
+            self.assertIn("surface_energy = 0.05", file["parameters/resolved"].asstr()[()])
+        # The same, typed.
+        typed, _, _ = self.stress(granule, "particle.radius=24e-9", "material.youngs_modulus=7e10", "material.poisson_ratio=0.17",
+                                  "material.surface_energy=0.05", scene="/dev/null", output="typed.h5")
+        self.assertEqual(typed["results"]["elongation"], report["results"]["elongation"])
+        # What F_po/(6 pi a^2) of this material makes a hundred times that of the paper's spheres of 100 nm.
+        self.assertGreater(report["results"]["elongation"]["critical_stress_worst_pa"], 1e5)
+
+    def test_the_scene_wins_and_both_values_are_said(self):
+        report, run, _ = self.stress(self.silica())
+        self.assertIn("radius 100 nm (scene; the file says 24), scaled by 4.16667, E 3.4e+09 Pa (scene; the file says 7e+10), "
+                      "nu 0.5 (scene; the file says 0.17), gamma_s 0.0048 J/m2 (scene; the file says 0.05)",
+                      run.stderr.splitlines()[0])
+        self.assertEqual(report["granule"]["material"]["surface_energy"], {"value": 4.8e-3, "from": "scene", "in_file": 0.05})
+
+    def test_a_file_before_schema_1_1_lends_its_resolved_scene(self):
+        granule = self.silica()
+        new, _, _ = self.stress(granule, scene="/dev/null")
+        with h5py.File(granule, "a") as file:
+            del file["material"]
+            file["h5md/modules/agglomerate"].attrs["version"] = numpy.array([1, 0], dtype="int32")
+        old, run, _ = self.stress(granule, scene="/dev/null", output="old.h5")
+        self.assertIn("gamma_s 0.05 J/m2 (file)", run.stderr)
+        self.assertEqual(new["results"], old["results"])
+
+    def test_a_stress_file_with_the_keys_of_an_earlier_version_lends_its_response(self):
+        granule = self.agglomerate([[0, 0, 0], [200, 0, 0], [400, 0, 0]])
+        _, _, out = self.stress(granule, "contact.rolling_stiffness_factor=2", "hydrodynamics.method=fts")
+        with h5py.File(out, "a") as file:
+            text = file["parameters/resolved"].asstr()[()]
+            del file["parameters/resolved"], file["material"]
+            text = text.replace("[contact]", "[structure]").replace("rolling_stiffness_factor", "bending_factor")
+            text = text.replace("twisting_stiffness_factor", "twisting_factor")
+            file["parameters"].create_dataset("resolved", data=text, dtype=h5py.string_dtype())
+        _, run, _ = self.stress(out, "hydrodynamics.method=fts", output="again.h5")
+        self.assertIn("nothing is factorised", run.stderr)
+
+    def test_scale_leaves_what_a_stage_leaves(self):
+        compact = pathlib.Path(__file__).resolve().parents[2] / "data/compact.h5"
+        scaled = self.folder / "scaled.h5"
+        run = subprocess.run([AGGLOMERATE, "scale", compact, "--radius", "100", "-o", scaled], check=True, capture_output=True,
+                             text=True)
+        self.assertIn("scaled by 10", run.stdout)
+        _, _, out = self.stress(compact, "hydrodynamics.method=fts", "flow.shear=false", "flow.starts=1")
+        with h5py.File(scaled) as a, h5py.File(out) as b:
+            self.assertEqual(a["contacts/pair"][:].tolist(), b["contacts/pair"][:].tolist())
+            for name in ("contacts/gap", "closing/residual_max", "closing/residual_rms"):
+                self.assertTrue(numpy.allclose(a[name][()], b[name][()], rtol=1e-9, atol=0), name)
+
+    def test_keys_of_earlier_versions_are_answered(self):
+        for old, new in (("structure.bending_factor=1", "contact.rolling_stiffness_factor"),
+                         ("hydrodynamics.tolerance=0.1", "error.accuracy"), ("structure.fragments=each", "particle.fragments")):
+            self.assertIn(f"is now called '{new}'", self.refused(self.agglomerate([[0, 0, 0], [200, 0, 0]]), old).stderr)
 
     def test_another_flow_on_a_stress_file_factorises_nothing(self):
         square = [[0, 0, 0], [200, 0, 0], [200, 200, 0], [0, 200, 0], [100, 100, 141.4213562]]
@@ -112,7 +188,7 @@ class Program(unittest.TestCase):
                          again["results"]["statically_determinate_contacts"])
         self.assertEqual(first["errors"]["n_max_relative"]["value"], again["errors"]["n_max_relative"]["value"])
         # Another structure is another response.
-        other, run, _ = self.stress(out, "structure.bending_factor=2", output="other.h5")
+        other, run, _ = self.stress(out, "contact.rolling_stiffness_factor=2", output="other.h5")
         self.assertNotIn("nothing is factorised", run.stderr)
         self.assertNotEqual(other["results"]["elongation"]["n_max_worst"], first["results"]["elongation"]["n_max_worst"])
 
@@ -154,12 +230,12 @@ class Program(unittest.TestCase):
         run = self.refused(pieces)
         self.assertEqual(run.returncode, 2)
         self.assertIn("2 pieces", run.stderr)
-        report, _, out = self.stress(pieces, "structure.fragments=each", "hydrodynamics.method=fts")
+        report, _, out = self.stress(pieces, "particle.fragments=each", "hydrodynamics.method=fts")
         found = report["results"]
         self.assertEqual(found["fragment_sizes"], [3, 2])
         # Each as if alone: the trimer and the doublet of the far field.
         numpy.testing.assert_allclose(found["fragment_n_max_worst"], [1.425765, 0.952381], atol=1e-5)
-        again, run, _ = self.stress(out, "structure.fragments=each", "hydrodynamics.method=fts", output="again.h5")
+        again, run, _ = self.stress(out, "particle.fragments=each", "hydrodynamics.method=fts", output="again.h5")
         self.assertIn("nothing is factorised", run.stderr)
         numpy.testing.assert_allclose(again["results"]["fragment_n_max_worst"], found["fragment_n_max_worst"],
                                       rtol=1e-9)
@@ -168,7 +244,7 @@ class Program(unittest.TestCase):
         shell = self.agglomerate(numpy.r_[dodecahedron(200), [[0, 0, 0]]])
         run = self.refused(shell)
         self.assertIn("particle 20 belongs to the second", run.stderr)
-        report, _, _ = self.stress(shell, "structure.fragments=each", "hydrodynamics.method=fts")
+        report, _, _ = self.stress(shell, "particle.fragments=each", "hydrodynamics.method=fts")
         self.assertEqual(report["results"]["fragment_sizes"], [20, 1])
         self.assertGreater(report["results"]["elongation"]["n_max_worst"], 0)
         self.assertEqual(report["results"]["fragment_n_max_worst"][1], 0)
@@ -191,7 +267,7 @@ class Program(unittest.TestCase):
         self.assertIn("0.998 a apart", run.stderr)
 
     def test_mechanism_is_named(self):
-        run = self.refused(self.agglomerate([[0, 0, 0], [200, 0, 0], [400, 0, 0]]), "structure.bending_factor=0")
+        run = self.refused(self.agglomerate([[0, 0, 0], [200, 0, 0], [400, 0, 0]]), "contact.rolling_stiffness_factor=0")
         self.assertEqual(run.returncode, 2)
         self.assertIn("contact 0-1 is free to bend", run.stderr)
 

@@ -6,7 +6,7 @@
 
 #include "common/hydro/dense_hydrodynamics.hpp"
 #include "common/numerics/noise.hpp"
-#include "rigidstress/response.hpp"
+#include "common/rigid/response.hpp"
 
 namespace crumble::testing {
 

@@ -17,8 +17,8 @@ def droplet(granule):
     with h5py.File(granule) as file:
         found = {"x": 1e-9 * file["particles/all/position/value"][0], "a": 1e-9 * float(file["particles/all/radius"][0])}
         said = scene.resolved(file)
-    keys = {"R0": ("droplet", "radius"), "tau": ("droplet", "lifetime"), "sigma": ("liquid", "surface_tension"),
-            "mu": ("liquid", "viscosity"), "E": ("material", "youngs_modulus"), "nu": ("material", "poisson_ratio"),
+    keys = {"R0": ("droplet", "radius"), "tau": ("droplet", "lifetime"), "sigma": ("fluid", "surface_tension"),
+            "mu": ("fluid", "viscosity"), "E": ("material", "youngs_modulus"), "nu": ("material", "poisson_ratio"),
             "gamma": ("material", "surface_energy"), "density": ("material", "density"), "friction": ("contact", "friction")}
     found |= {key: scene.number(said, *place) for key, place in keys.items()}
     return found | {"constants": constants(found), "mass": found["density"] * 4 / 3 * math.pi * found["a"] ** 3}

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "common/numerics/sparse_cholesky.hpp"
-#include "rigidstress/joint.hpp"
+#include "common/rigid/joint.hpp"
 
 namespace crumble {
 

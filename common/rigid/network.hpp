@@ -14,7 +14,7 @@
 #include <memory>
 #include <stdexcept>
 
-#include "rigidstress/bridges.hpp"
+#include "common/rigid/bridges.hpp"
 
 namespace crumble {
 

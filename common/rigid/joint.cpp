@@ -1,4 +1,4 @@
-#include "rigidstress/joint.hpp"
+#include "common/rigid/joint.hpp"
 
 #include "common/contact/jkr.hpp"
 #include "common/contact/rolling.hpp"

@@ -1,4 +1,4 @@
-#include "rigidstress/bridges.hpp"
+#include "common/rigid/bridges.hpp"
 
 #include <algorithm>
 #include <stdexcept>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "common/hydro/rigid_body.hpp"
-#include "rigidstress/network.hpp"
+#include "common/rigid/network.hpp"
 
 namespace crumble {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "rigidstress/joint.hpp"
+#include "common/rigid/joint.hpp"
 
 namespace crumble {
 

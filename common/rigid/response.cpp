@@ -1,4 +1,4 @@
-#include "rigidstress/response.hpp"
+#include "common/rigid/response.hpp"
 
 namespace crumble {
 

@@ -1,10 +1,10 @@
-#include "rigidstress/network.hpp"
+#include "common/rigid/network.hpp"
 
 #include <cmath>
 #include <string>
 #include <utility>
 
-#include "rigidstress/elastic_blocks.hpp"
+#include "common/rigid/elastic_blocks.hpp"
 
 namespace crumble {
 

@@ -1,11 +1,11 @@
-#include "rigidstress/elastic_blocks.hpp"
+#include "common/rigid/elastic_blocks.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
 
-#include "rigidstress/network.hpp"
+#include "common/rigid/network.hpp"
 
 namespace crumble {
 

@@ -1,0 +1,97 @@
+#include "common/io/granule.hpp"
+
+#include <fmt/format.h>
+
+namespace crumble {
+
+namespace {
+
+const char* source(const Scene& scene, const std::string& key) {
+  switch (scene.origin(key)) {
+    case Scene::Origin::given:
+      return "scene";
+    case Scene::Origin::inherited:
+      return "file";
+    default:
+      return "default";
+  }
+}
+
+// The number, or the word that stands for it.
+std::string shown(const Scene& scene, const std::string& key) {
+  return scene.word(key) ? *scene.word(key) : fmt::format("{:g}", scene.real(key));
+}
+
+std::optional<double> in_file(const std::optional<Parent>& parent, const std::string& key) {
+  if (!parent) return std::nullopt;
+  const auto found = parent->properties.find(key);
+  return found == parent->properties.end() ? std::nullopt : std::optional(found->second);
+}
+
+bool differs(const Scene& scene, const std::string& key, const std::optional<double>& other) {
+  return other && (scene.word(key) || scene.real(key) != *other);
+}
+
+std::string with_source(const Scene& scene, const std::optional<Parent>& parent, const std::string& key,
+                        const char* name, const char* unit) {
+  const auto other = in_file(parent, key);
+  return fmt::format("{} {}{} ({}{})", name, shown(scene, key), unit, source(scene, key),
+                     differs(scene, key, other) ? fmt::format("; the file says {:g}", *other) : "");
+}
+
+std::string radius_text(const Scene& scene, const std::optional<Parent>& parent) {
+  const bool set = scene.is_set("particle.radius");
+  if (!parent) return fmt::format("radius {:g} nm (scene)", 1e9 * scene.real("particle.radius"));
+  const double scale = set ? scene.real("particle.radius") / parent->radius : 1;
+  if (!set) return fmt::format("radius {:g} nm (file), scaled by 1", 1e9 * parent->radius);
+  return fmt::format("radius {:g} nm (scene; the file says {:g}), scaled by {:g}", 1e9 * scene.real("particle.radius"),
+                     1e9 * parent->radius, scale);
+}
+
+}  // namespace
+
+void inherit(Scene& scene, const Parent& parent) {
+  for (const auto& [key, value] : parent.properties)
+    if (scene.declares(key)) scene.inherit(key, value, parent.file);
+}
+
+Properties properties_of(const Scene& scene, const Properties& parent) {
+  Properties properties = parent;
+  for (const TravellingKey& k : travelling_keys())
+    if (const std::string key(k.key); scene.declares(key) && !scene.word(key)) properties[key] = scene.real(key);
+  return properties;
+}
+
+void write_properties(AgglomerateWriter& writer, const Properties& properties) {
+  for (const TravellingKey& k : travelling_keys())
+    if (const auto found = properties.find(std::string(k.key)); found != properties.end())
+      writer.put(std::string(k.path), found->second);
+}
+
+std::string granule_line(const Scene& scene, const std::optional<Parent>& parent) {
+  const auto part = [&](const char* key, const char* name, const char* unit) {
+    return ", " + with_source(scene, parent, key, name, unit);
+  };
+  std::string line = radius_text(scene, parent) + part("material.youngs_modulus", "E", " Pa") +
+                     part("material.poisson_ratio", "nu", "") + part("material.surface_energy", "gamma_s", " J/m2") +
+                     part("fluid.viscosity", "liquid", " Pa s");
+  // Factors of the bond are worth a word only where they are not the paper's.
+  for (const TravellingKey& k : travelling_keys())
+    if (const std::string key(k.key); key.starts_with("contact.") && scene.declares(key))
+      if (scene.real(key) != 1 || differs(scene, key, in_file(parent, key)))
+        line += ", " + with_source(scene, parent, key, key.c_str(), "");
+  return line;
+}
+
+void report_inputs(Report& report, const Scene& scene, const std::optional<Parent>& parent) {
+  for (const std::string& key : scene.keys()) report.input(key, scene.value(key));
+  const auto about = [&](const std::string& key, const char* from, std::optional<double> other) {
+    report.granule(key, scene.value(key), from, other);
+  };
+  about("particle.radius", scene.is_set("particle.radius") ? "scene" : "file",
+        parent ? std::optional(parent->radius) : std::nullopt);
+  for (const TravellingKey& k : travelling_keys())
+    if (const std::string key(k.key); scene.declares(key)) about(key, source(scene, key), in_file(parent, key));
+}
+
+}  // namespace crumble

@@ -1,0 +1,34 @@
+"""The scene with which rigidstress loads the same granule in the same fluid as a breakup did: radius, material, bonds,
+hydrodynamics and flow are those of its file.
+
+    rigid_scene.py BREAKUP.h5 > RIGID.toml
+"""
+import json
+import sys
+
+import h5py
+
+import scene
+
+TAKEN = {"particle": ("radius", "fragments", "largest_gap"), "material": None, "fluid": ("viscosity",),
+         "contact": ("rolling_stiffness_factor",), "hydrodynamics": None}
+FLOWS = ("elongation", "shear", "uniaxial", "biaxial")
+
+
+def rigid(of):
+    """Text of the scene; `of` is that of the breakup, resolved."""
+    if of["particle"].get("contacts") == "keep":
+        sys.exit("particle.contacts = \"keep\": rigidstress closes the contacts and would load another granule")
+    if of["flow"]["kind"] not in FLOWS:
+        sys.exit(f"flow.kind = \"{of['flow']['kind']}\": nothing is loaded in it")
+    lines = []
+    for section, keys in TAKEN.items():
+        lines.append(f"[{section}]")
+        lines += [f"{key} = {json.dumps(value)}" for key, value in of[section].items() if keys is None or key in keys]
+    lines += ["[flow]"] + [f"{flow} = {json.dumps(flow == of['flow']['kind'])}" for flow in FLOWS]
+    return "\n".join(lines) + "\n"
+
+
+if __name__ == "__main__":
+    with h5py.File(sys.argv[1]) as breakup:
+        print(rigid(scene.resolved(breakup)), end="")
