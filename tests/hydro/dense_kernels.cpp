@@ -22,7 +22,7 @@ Matrix<Scalar> random(Eigen::Index rows, Eigen::Index columns) {
   std::mt19937 generator(static_cast<unsigned>(17 * rows + columns));
   Matrix<Scalar> m(rows, columns);
   // Not a distribution of the standard library, whose numbers differ from one to the next.
-  for (Scalar& v : m.reshaped()) v = Scalar(2.0 * generator() / 4294967295.0 - 1);
+  for (Scalar& v : m.reshaped()) v = static_cast<Scalar>(2.0 * static_cast<double>(generator()) / 4294967295.0 - 1);
   return m;
 }
 
