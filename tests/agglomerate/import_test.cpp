@@ -48,7 +48,8 @@ TEST(Import, UnitsScaleTheWholeFile) {
   EXPECT_NEAR(r.closed.agglomerate.particles.radius[1], 2e-7, 1e-20);
   ASSERT_EQ(r.closed.agglomerate.state.contacts.size(), 1u);
   // Unequal spheres meet at the equilibrium of 2 R*, here 4/3 of the smaller radius.
-  EXPECT_NEAR(r.closed.agglomerate.state.contacts[0].gap, Jkr(Material(), 4.0 / 3 * 1e-7).equilibrium_gap, 1e-12 * 1e-7);
+  EXPECT_NEAR(r.closed.agglomerate.state.contacts[0].gap, Jkr(Material(), 4.0 / 3 * 1e-7).equilibrium_gap,
+              1e-12 * 1e-7);
 }
 
 std::string complaint(const PointList& p, const ImportOptions& options) {
@@ -106,8 +107,9 @@ TEST(ExtendedXyz, WhatIsExportedImportsAsTheSameAgglomerate) {
   ASSERT_EQ(twice.closed.agglomerate.state.contacts.size(), 3u);
   for (std::size_t i = 0; i < 4; ++i) {
     // Through nm and back, then closed again: both round.
-    EXPECT_LT((twice.closed.agglomerate.state.position[i] - once.closed.agglomerate.state.position[i]).norm(), 1e-13 * a);
-    EXPECT_NEAR(twice.particles.radius[i], once.closed.agglomerate.particles.radius[i], 1e-15 * a);
+    EXPECT_LT((twice.closed.agglomerate.state.position[i] - once.closed.agglomerate.state.position[i]).norm(),
+              1e-13 * a);
+    EXPECT_NEAR(twice.closed.agglomerate.particles.radius[i], once.closed.agglomerate.particles.radius[i], 1e-15 * a);
   }
 }
 
