@@ -74,7 +74,7 @@ inline FileDescription sample_description(const std::string& stage = "dryer") {
 }
 
 inline Observables sample_observables(int frame) {
-  return {{"droplet_radius", 100e-9 - 1e-9 * frame}, {"wetted_count", frame}, {"capillary_force", 1e-9}};
+  return {{"droplet_radius", std::max(0.0, 100e-9 - 1e-9 * frame)}, {"wetted_count", frame}, {"capillary_force", 1e-9}};
 }
 
 constexpr std::size_t sample_size = 12;
