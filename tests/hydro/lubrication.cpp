@@ -31,7 +31,7 @@ const Vector3 some_direction = Vector3(0.4, -0.5, 0.7).normalized();
 TEST(Lubrication, PairIsExactTwoSpheresMinusFarField) {
   for (const double distance : {2 + 1e-6, 2.01, 2.5, 4.0}) {
     const Vector3 r = distance * some_direction;
-    const PairMatrix expected = two_sphere_pair(r, 1, 1) - far_field_pair(r, 1, 1).inverse().eval();
+    const PairMatrix expected = two_sphere_pair(r, 1, 1) - Eigen::MatrixXd(far_field_pair(r, 1, 1)).inverse();
     const PairMatrix found = pair_lubrication(r, 1, 1, PairMotion::all);
     EXPECT_LT((found - expected).norm(), 1e-10 * two_sphere_pair(r, 1, 1).norm()) << distance;
   }
@@ -41,8 +41,8 @@ TEST(Lubrication, PairIsExactTwoSpheresMinusFarField) {
 TEST(Lubrication, IsPositiveSemiDefinite) {
   for (const double distance : {1.9, 2.0, 2 + 1e-8, 2.001, 2.1, 2.5, 3.0, 4.0, 6.0})
     for (const PairMotion motion : {PairMotion::all, PairMotion::relative}) {
-      const PairMatrix D = pair_lubrication(distance * some_direction, 1, 1, motion);
-      const auto eigenvalues = Eigen::SelfAdjointEigenSolver<PairMatrix>(D).eigenvalues();
+      const Eigen::MatrixXd D = pair_lubrication(distance * some_direction, 1, 1, motion);
+      const Eigen::VectorXd eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(D).eigenvalues();
       EXPECT_GT(eigenvalues.minCoeff(), -1e-9 * std::max(1.0, eigenvalues.maxCoeff() * 1e-3)) << distance;
     }
 }
@@ -68,14 +68,15 @@ TEST(Lubrication, RelativeFormExertsNothingInRigidMotionOfThePair) {
 
 TEST(Lubrication, ProjectionKeepsWhatIsOrthogonalToRigidMotion) {
   const Vector3 r = 2.05 * some_direction;
-  const Eigen::Matrix<double, 22, 6> Z = rigid_motions(r);
-  const Eigen::Matrix<double, 22, 22> motion = [] {
-    Eigen::Matrix<double, 22, 1> d;
+  const Eigen::MatrixXd Z = rigid_motions(r);
+  const Eigen::MatrixXd motion = [] {
+    Eigen::VectorXd d(22);
     d << Eigen::Matrix<double, 6, 1>::Ones(), Vector5::Zero(), Eigen::Matrix<double, 6, 1>::Ones(), Vector5::Zero();
-    return Eigen::Matrix<double, 22, 22>(d.asDiagonal());
+    return d.asDiagonal().toDenseMatrix();
   }();
-  const PairMatrix P = PairMatrix::Identity() - Z * (Z.transpose() * Z).inverse() * Z.transpose() * motion;
-  const PairMatrix expected = P.transpose() * pair_lubrication(r, 1, 1, PairMotion::all) * P;
+  const Eigen::MatrixXd P =
+      Eigen::MatrixXd::Identity(22, 22) - Z * (Z.transpose() * Z).inverse() * Z.transpose() * motion;
+  const Eigen::MatrixXd expected = P.transpose() * pair_lubrication(r, 1, 1, PairMotion::all) * P;
   EXPECT_LT((pair_lubrication(r, 1, 1, PairMotion::relative) - expected).norm(), 1e-12 * expected.norm());
 }
 

@@ -138,8 +138,8 @@ TEST(TwoSpherePair, IsBoundedBelowByTheFarFieldAndTendsToIt) {
   for (const Radii& a : radii)
     for (const double gap : {1e-6, 1e-3, 0.1, 1.0, 10.0, 40.0}) {
       const Vector3d r = (2 + gap) * random_direction(random);
-      const PairMatrix R = two_sphere_pair(r, a.one, a.two, 0);
-      const PairMatrix far = far_field_pair(r, a.one, a.two).inverse(), rest = R - far;
+      const Eigen::MatrixXd R = two_sphere_pair(r, a.one, a.two, 0);
+      const Eigen::MatrixXd far = Eigen::MatrixXd(far_field_pair(r, a.one, a.two)).inverse(), rest = R - far;
       // 1e-8: truncation of the table for unequal spheres.
       EXPECT_GT(rest.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff(), -1e-8 * far.norm())
           << gap << " " << a.one;

@@ -1,8 +1,11 @@
+// The definitions of EigenKernels, for the two files that instantiate them: together they take the compiler twice as long.
+#pragma once
+
 #include "common/hydro/dense_tiles.hpp"
 
 namespace crumble::dense {
 
-namespace {
+namespace tiles {
 
 constexpr Eigen::Index smallest_block = 64;
 
@@ -40,7 +43,7 @@ void square(Block<Scalar> L) {
   square<Scalar>(L.bottomRightCorner(k, k));
 }
 
-}  // namespace
+}  // namespace tiles
 
 template <class Scalar>
 int EigenKernels<Scalar>::cholesky(Out a) {
@@ -101,11 +104,8 @@ void EigenKernels<Scalar>::subtract_square(Out c, In a) {
 
 template <class Scalar>
 void EigenKernels<Scalar>::invert_from_factor(Out a) {
-  invert<Scalar>(a);
-  square<Scalar>(a);
+  tiles::invert<Scalar>(a);
+  tiles::square<Scalar>(a);
 }
-
-template struct EigenKernels<float>;
-template struct EigenKernels<double>;
 
 }  // namespace crumble::dense

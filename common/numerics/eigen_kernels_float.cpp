@@ -1,0 +1,5 @@
+#include "common/numerics/eigen_kernels.hpp"
+
+#ifdef CRUMBLE_EIGEN_KERNELS
+CRUMBLE_EIGEN_KERNELS(template struct, float)
+#endif
