@@ -30,6 +30,7 @@ TEST_P(BreakupRestart, ContinuesToTheSameBitsBeforeAndAfterBreakup) {
   BreakerScene scene;
   scene.model = elongation(Rung::fts);
   scene.protocol = Protocol({{0, 2e7}});
+  scene.largest_stress = 1e5;
   scene.is_explicit = GetParam();
   scene.tolerance = 0.03;
   scene.until_stable = true;

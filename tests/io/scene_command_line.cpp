@@ -112,7 +112,7 @@ TEST(CommandLine, each_misuse_has_its_own_message) {
   EXPECT_EQ(first_line_of_refusal({"a.toml", "-o", "b.h5", "--report", "/nowhere/b.json"}),
             "dryer: --report /nowhere/b.json: there is no folder '/nowhere'");
   EXPECT_EQ(first_line_of_refusal({"a.toml", "-o", "b.h5", "--report", "b.h5"}),
-            "dryer: -o and --report name the same file");
+            "dryer: -o b.h5 and --report b.h5 are the same file");
 }
 
 TEST(CommandLine, an_output_may_not_overwrite_an_input) {

@@ -17,7 +17,8 @@ const ParameterTable& table() {
       {"protocol", "The protocol.", {Parameter::flag("scaled", "Scaled").by_default(true)}},
       {"protocol.stage",
        "A stage.",
-       {Parameter::choice("kind", {"rest", "ramp"}, "Which"), Parameter::real("rate", "Pa s-1", "How fast").above(0).optional()},
+       {Parameter::choice("kind", {"rest", "ramp"}, "Which"),
+        Parameter::real("rate", "Pa s-1", "How fast").above(0).optional()},
        true,
        {"protocol.stages"}}};
   return t;
@@ -34,7 +35,8 @@ std::string refusal(const std::string& text, const std::vector<Override>& overri
 
 TEST(SceneVocabulary, AFormerNameIsAnErrorThatSaysTheNewOneAndTheLine) {
   EXPECT_EQ(refusal("\n[liquid]\nviscosity = 1.0\n"), "s.toml:3: 'liquid.viscosity' is now called 'fluid.viscosity'");
-  EXPECT_EQ(refusal("[protocol]\nstages = \"rest 1\"\n"), "s.toml:2: 'protocol.stages' is now called '[[protocol.stage]]'");
+  EXPECT_EQ(refusal("[protocol]\nstages = \"rest 1\"\n"),
+            "s.toml:2: 'protocol.stages' is now called '[[protocol.stage]]'");
   EXPECT_EQ(refusal("", {parse_override("liquid.viscosity=1")}),
             "--set: 'liquid.viscosity' is now called 'fluid.viscosity'");
   EXPECT_NE(refusal("[liquid]\ncolour = 1\n").find("unknown key 'liquid.colour'"), std::string::npos);
@@ -42,7 +44,8 @@ TEST(SceneVocabulary, AFormerNameIsAnErrorThatSaysTheNewOneAndTheLine) {
 
 TEST(SceneVocabulary, AStoredSceneOfAnEarlierVersionIsUnderstood) {
   const Scene s = Scene::parse_stored(
-      "[liquid]\nviscosity = 2.0\n[output]\ntimes = \"0.2, 0.4\"\n[protocol]\nstages = \"rest 1\"\n", "old.h5", table());
+      "[liquid]\nviscosity = 2.0\n[output]\ntimes = \"0.2, 0.4\"\n[protocol]\nstages = \"rest 1\"\n", "old.h5",
+      table());
   EXPECT_EQ(s.real("fluid.viscosity"), 2);
   EXPECT_FALSE(s.is_set("output.theta"));  // has another form now
   EXPECT_EQ(s.count("protocol.stage"), 0u);
@@ -52,9 +55,9 @@ TEST(SceneVocabulary, ListsAreReadCheckedAndWritten) {
   const Scene s = Scene::parse("[output]\ntheta = [0.25, 0.5]\n", "s.toml", table());
   EXPECT_EQ(s.list("output.theta"), (std::vector<double>{0.25, 0.5}));
   EXPECT_NE(s.resolved().find("theta = [0.25, 0.5]\n"), std::string::npos);
-  EXPECT_EQ(Scene::parse("", "s.toml", table(), {parse_override("output.theta=[0.5]")}).list("output.theta").size(), 1u);
-  EXPECT_EQ(refusal("[output]\ntheta = [0.5, 1]\n"),
-            "s.toml:2: output.theta = [0.5, 1.0]: 1.0 must be > 0 and < 1");
+  EXPECT_EQ(Scene::parse("", "s.toml", table(), {parse_override("output.theta=[0.5]")}).list("output.theta").size(),
+            1u);
+  EXPECT_EQ(refusal("[output]\ntheta = [0.5, 1]\n"), "s.toml:2: output.theta = [0.5, 1.0]: 1.0 must be > 0 and < 1");
   for (const char* wrong : {"\"0.2, 0.4\"", "0.2", "[\"a\"]", "[[0.2]]", "[true]"})
     EXPECT_NE(refusal(std::string("[output]\ntheta = ") + wrong + "\n").find("must be a list of numbers"),
               std::string::npos)
@@ -70,7 +73,8 @@ TEST(SceneVocabulary, RepeatedSectionsKeepTheirOrderAndReadBack) {
   const Scene again = Scene::parse(s.resolved(), "again.toml", table());
   EXPECT_EQ(again.resolved(), s.resolved());
   EXPECT_EQ(again.keys(), s.keys());
-  const Scene other = Scene::parse(text, "s.toml", table(), {parse_override("protocol.stage=[{kind=\"ramp\", rate=7}]")});
+  const Scene other =
+      Scene::parse(text, "s.toml", table(), {parse_override("protocol.stage=[{kind=\"ramp\", rate=7}]")});
   ASSERT_EQ(other.count("protocol.stage"), 1u);
   EXPECT_EQ(other.real("protocol.stage[0].rate"), 7);
 }

@@ -48,7 +48,7 @@ TEST(AgglomerateCommand, EveryMisuseHasItsOwnMessageAndExitCodeTwo) {
       {"morphology a.h5 --frame 3", "the file has the frames 0 to 2"},
       {"export a.h5", "--output is required"},
       {"export a.h5 -o a.vtk", "-o a.vtk: must end with .xyz"},
-      {"export a.h5 -o a.h5", "would overwrite the input"},
+      {"export a.h5 -o a.h5", "-o a.h5: must end with .xyz"},
       {"export a.h5 -o nowhere/a.xyz", "there is no folder 'nowhere'"},
       {"scale a.h5 -o b.h5", "--radius is required"},
       {"scale a.h5 --radius -1 -o b.h5", "--radius -1: must be a number > 0"},
