@@ -176,8 +176,8 @@ std::string result_text(const BreakupRun& run, const BreakerScene& scene, std::o
 
 namespace {
 
-// The breakups of breaker/README.md (doublet, coil, compact, hollow; tolerance 0.01) took 19 to 60 steps a contact, each
-// about as long as the new far field of a moved configuration, s.
+// The breakups of breaker/README.md (doublet, coil, compact, hollow; tolerance 0.01) took 19 to 60 steps a contact,
+// each about as long as the new far field of a moved configuration, s.
 std::string expected_cost(std::size_t contacts, double renewal) {
   const double few = 19 * static_cast<double>(contacts), many = 60 * static_cast<double>(contacts);
   return fmt::format("expected: {:.2g} to {:.2g} steps of {:.2g} s, {} to {} for one run", few, many, renewal,
@@ -222,11 +222,10 @@ std::vector<std::string> describe(const BreakerScene& scene, const Start& start)
   const double renewal = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (!scene.is_explicit) lines.push_back(expected_cost(frame.contacts.size(), renewal));
   const auto needed = alignment_strain(hydrodynamics.turning(), scene.model.gradient);
-  lines.push_back(fmt::format("strain available up to there: {:.3g}; needed to turn into the flow: {}",
-                              available, needed ? fmt::format("{:.3g}", *needed) : "not within 2000"));
+  lines.push_back(fmt::format("strain available up to there: {:.3g}; needed to turn into the flow: {}", available,
+                              needed ? fmt::format("{:.3g}", *needed) : "not within 2000"));
   if (needed && available < *needed)
-    lines.push_back(
-        "warning: it may break before it is aligned; a slower ramp gives it more strain");
+    lines.push_back("warning: it may break before it is aligned; a slower ramp gives it more strain");
   return lines;
 }
 

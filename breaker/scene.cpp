@@ -15,10 +15,10 @@ namespace {
 using P = Parameter;
 
 Section particle() {
-  Section section{"particle",
-                  "The primary particles.",
-                  agglomerate_parameters({"refuse", "largest"},
-                                         "An agglomerate in several pieces: refuse it, or take the largest piece alone")};
+  Section section{
+      "particle", "The primary particles.",
+      agglomerate_parameters({"refuse", "largest"},
+                             "An agglomerate in several pieces: refuse it, or take the largest piece alone")};
   section.parameters.push_back(
       P::choice("contacts", {"close", "keep"},
                 "close: all listed contacts start at the gap free of force and without history; keep: gaps and "
@@ -38,7 +38,8 @@ Protocol protocol_in(const Scene& scene, double stretch) {
     };
     for (const char* key : {"duration", "stress", "rate", "from", "to"}) {
       const bool of_ramp = key == std::string("rate") || key == std::string("from") || key == std::string("to");
-      if (scene.is_set(place + key) && (of_ramp != (kind == "ramp") || (kind == "rest" && key == std::string("stress"))))
+      if (scene.is_set(place + key) &&
+          (of_ramp != (kind == "ramp") || (kind == "rest" && key == std::string("stress"))))
         throw scene.error(place + key, "has no meaning where kind = \"" + kind + "\"");
     }
     if (!stages.empty() && std::isinf(stages.back().duration))
@@ -172,8 +173,9 @@ BreakerScene breaker_scene(const Scene& scene) {
   s.ramp_strain = scene.real("protocol.strain");
   s.protocol = protocol_in(scene, scene.flag("protocol.scale_with_viscosity") ? s.model.viscosity : 1);
   if (s.protocol.stages().empty() && s.flow == FlowKind::quiescent)
-    throw scene.error("flow.kind", "nothing follows from the strength where nothing flows: say how long in "
-                                   "[[protocol.stage]]");
+    throw scene.error("flow.kind",
+                      "nothing follows from the strength where nothing flows: say how long in "
+                      "[[protocol.stage]]");
   if (scene.is_set("protocol.largest_stress")) s.largest_stress = scene.real("protocol.largest_stress");
   s.reach = scene.real("breakup.reach");
   if (scene.is_set("breakup.lost_particles")) s.lost_particles = scene.integer("breakup.lost_particles");

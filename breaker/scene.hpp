@@ -28,8 +28,8 @@ struct BreakerScene {
   double reach = 1;                            // gap beyond which a fragment is lost, in a
   std::optional<std::int64_t> lost_particles;  // whose loss is the breakup; else a twentieth of all, rounded up
   bool until_stable = false;
-  double stable_strain = 20;  // without rupture, at constant stress
-  double brittle_below = 0.1;   // relative change of the largest semi-axis
+  double stable_strain = 20;   // without rupture, at constant stress
+  double brittle_below = 0.1;  // relative change of the largest semi-axis
   bool estimate_error = true;
   double accuracy = 0.01;     // of the critical stress, relative; while its error is larger the tolerance is halved,
   std::int64_t halvings = 2;  // at most so often

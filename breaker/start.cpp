@@ -63,9 +63,9 @@ Start make_start(Agglomerate agglomerate, const std::string& name, const Breaker
   for (Contact& c : frame.contacts) c.born = 0;
   const BreakupModel& model = scene.model;
   if (!model.gradient.isZero())
-    start.rigid_strength = rigid_strength(agglomerate, model.material,
-                                          {.bending_factor = model.contact.rolling_stiffness_factor}, model.hydro,
-                                          model.gradient);
+    start.rigid_strength =
+        rigid_strength(agglomerate, model.material, {.bending_factor = model.contact.rolling_stiffness_factor},
+                       model.hydro, model.gradient);
   start.agglomerate = std::move(agglomerate);
   return start;
 }

@@ -26,12 +26,13 @@ Section fluid() {
                                 .above(0)
                                 .by_default(300)
                                 .formerly("liquid.temperature"));
-  keys.push_back(P::real("surface_tension", "N m-1",
-                         "Surface tension sigma. The default is the paper's reduced value; water's is 400 times as large")
-                     .at_least(0)
-                     .or_word({"water"})
-                     .by_default(1.75e-4)
-                     .formerly("liquid.surface_tension"));
+  keys.push_back(
+      P::real("surface_tension", "N m-1",
+              "Surface tension sigma. The default is the paper's reduced value; water's is 400 times as large")
+          .at_least(0)
+          .or_word({"water"})
+          .by_default(1.75e-4)
+          .formerly("liquid.surface_tension"));
   keys.push_back(P::real("contact_angle", "degree",
                          "Contact angle theta of the liquid on the particles: the capillary force of Eq. 8 times "
                          "cos^2(theta/2)")

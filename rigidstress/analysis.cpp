@@ -16,7 +16,8 @@ void refuse_fragments(const std::vector<Body>& parts, const std::string& name) {
   if (parts.size() > 8) sizes += ", ...";
   throw InputError(
       fmt::format("{}: {} pieces that no contact connects, of {} particles (particle {} belongs to the "
-                  "second): not one rigid body. particle.fragments = \"each\" analyses each by itself, \"largest\" the largest alone",
+                  "second): not one rigid body. particle.fragments = \"each\" analyses each by itself, \"largest\" the "
+                  "largest alone",
                   name, parts.size(), sizes, parts[1].particle.front()));
 }
 

@@ -11,11 +11,11 @@ namespace crumble {
 // Gradients at instants, in between linear.
 class GradientHistory {
  public:
-  // A CSV file: one header line of ten names in any order, each with its unit in brackets: t [s] and the nine components
-  // dux/dx [1/s], dux/dy [1/s], ...; lines that begin with # are skipped.
-  // Throws InputError, naming file and line, on: other names or units; a row without ten finite numbers; times that do not
-  // increase; a trace above 1 % of the gradient (the rest is removed); a gap in time, that is, an interval in which the
-  // flow would strain by more than `largest_step` or which is more than ten times the median interval.
+  // A CSV file: one header line of ten names in any order, each with its unit in brackets: t [s] and the nine
+  // components dux/dx [1/s], dux/dy [1/s], ...; lines that begin with # are skipped. Throws InputError, naming file and
+  // line, on: other names or units; a row without ten finite numbers; times that do not increase; a trace above 1 % of
+  // the gradient (the rest is removed); a gap in time, that is, an interval in which the flow would strain by more than
+  // `largest_step` or which is more than ten times the median interval.
   static GradientHistory read(const std::string& file, double largest_step = 1);
   static GradientHistory parse(const std::string& text, const std::string& name, double largest_step = 1);
 

@@ -115,7 +115,6 @@ constexpr const char* by_lubrication = "twice what pair lubrication on relative 
 // What it misses of collective drag lubrication does not see: 2 % of the largest tension in a straight chain of 50.
 double far_field_error(double change) { return std::max(0.03, 2 * change); }
 
-
 // Climbs the orders one by one.
 class Ladder {
  public:

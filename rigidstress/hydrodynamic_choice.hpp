@@ -14,7 +14,7 @@ enum class Method { automatic, fts, fts_lubrication, fts_relative_lubrication, m
 
 struct HydrodynamicChoice {
   Method method = Method::automatic;
-  int order = 3;  // multipole: L
+  int order = 3;           // multipole: L
   HydroModel lubrication;  // fts-lubrication, fts-relative-lubrication: range and floor
   double accuracy = 0.01;  // automatic: relative error of the largest tension
   double memory = 4e9;     // bytes

@@ -59,8 +59,8 @@ int load(int argc, const char* const* argv) {
     say("the response of " + input + " is that of this scene: nothing is factorised");
     if (line.check) return 0;
   } else {
-    Prepared prepared = prepare(agglomerate, input, scene.radius, scene.material, scene.largest_gap,
-                                scene.pieces == Pieces::largest);
+    Prepared prepared =
+        prepare(agglomerate, input, scene.radius, scene.material, scene.largest_gap, scene.pieces == Pieces::largest);
     for (const std::string& fact : describe(prepared)) say(fact);
     if (line.check) return 0;
     analysis = analyse(std::move(prepared), input, scene, say);

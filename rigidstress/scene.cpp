@@ -27,10 +27,8 @@ Section hydrodynamics() {
       {"auto", "fts", "fts-lubrication", "fts-relative-lubrication", "multipole"}, "auto",
       "auto: the cheapest of fts and multipoles of rising order whose estimated error is within error.accuracy; "
       "fts-lubrication overestimates rigid clusters and is there to reproduce older work");
-  section.parameters.push_back(P::integer("order", "multipole: degree L of the moments")
-                                   .at_least(1)
-                                   .at_most(20)
-                                   .by_default(standard.order));
+  section.parameters.push_back(
+      P::integer("order", "multipole: degree L of the moments").at_least(1).at_most(20).by_default(standard.order));
   section.parameters.push_back(P::real("memory", "B", "Largest matrix allowed").above(0).by_default(standard.memory));
   return section;
 }
@@ -39,8 +37,7 @@ Section hydrodynamics() {
 
 const ParameterTable& stress_parameters() {
   static const ParameterTable table{
-      {"particle",
-       "The primary particles.",
+      {"particle", "The primary particles.",
        agglomerate_parameters({"refuse", "largest", "each"},
                               "An agglomerate in several pieces: refuse it, take the largest piece alone, or analyse "
                               "each piece as if it were alone in the flow")},

@@ -6,10 +6,10 @@
 #include "common/agglomerate/rescaled.hpp"
 #include "common/io/output_file.hpp"
 #include "common/io/parameters.hpp"
+#include "common/rigid/joint.hpp"
 #include "rigidstress/flows.hpp"
 #include "rigidstress/history.hpp"
 #include "rigidstress/hydrodynamic_choice.hpp"
-#include "common/rigid/joint.hpp"
 
 namespace crumble {
 
@@ -38,8 +38,8 @@ StressScene stress_scene(const Scene& scene);
 // The files that the scene itself names.
 std::vector<ReadFile> history_files(const Scene& scene);
 
-// Two resolved scenes with the same answer here have the same response of the same file: all sections but fluid, flow and
-// run.
+// Two resolved scenes with the same answer here have the same response of the same file: all sections but fluid, flow
+// and run.
 std::string response_key(const Scene& scene);
 
 }  // namespace crumble

@@ -202,8 +202,10 @@ void write_stress(AgglomerateWriter& writer, const Analysis& analysis, const Str
   write_response(writer, analysis);
   if (scene.elongation)
     write_straining(writer, "elongation", analysis, unit_gradient(FlowKind::elongation), &BodyResult::elongation);
-  if (scene.uniaxial) write_straining(writer, "uniaxial", analysis, unit_gradient(FlowKind::uniaxial), &BodyResult::uniaxial);
-  if (scene.biaxial) write_straining(writer, "biaxial", analysis, unit_gradient(FlowKind::biaxial), &BodyResult::biaxial);
+  if (scene.uniaxial)
+    write_straining(writer, "uniaxial", analysis, unit_gradient(FlowKind::uniaxial), &BodyResult::uniaxial);
+  if (scene.biaxial)
+    write_straining(writer, "biaxial", analysis, unit_gradient(FlowKind::biaxial), &BodyResult::biaxial);
   if (scene.shear) write_shear(writer, analysis);
   if (scene.history) write_history(writer, analysis, scene);
 }
@@ -213,7 +215,8 @@ std::optional<Analysis> restore(const std::filesystem::path& path, const Scene& 
   if (reader.info().stage != "rigidstress") return std::nullopt;
   const hdf5::File file = hdf5::File::open(path);
   if (file.kind("/response/load") != hdf5::Kind::dataset) return std::nullopt;
-  const Scene before = Scene::parse_stored(reader.resolved(), path.string() + ":/parameters/resolved", stress_parameters());
+  const Scene before =
+      Scene::parse_stored(reader.resolved(), path.string() + ":/parameters/resolved", stress_parameters());
   if (response_key(before) != response_key(text)) return std::nullopt;
 
   Analysis a;

@@ -23,14 +23,14 @@ struct SelfStress {
 SelfStress self_stress(const Agglomerate& agglomerate, const Material& material);
 
 struct Rescaled {
-  Agglomerate agglomerate;           // at rest at step 0; contacts closed, without histories, as born there
-  double scale = 1;                  // new over old radius
-  std::vector<NearPair> lost;        // listed contacts that could not be kept
-  std::size_t made = 0;              // pairs that came to overlap: contacts, too
-  double largest_move = 0;           // of a particle by closing, m
-  double largest_tension = 0;        // left, in pull-off forces; 0 if there is none
-  double largest_compression = 0;    // the same, positive
-  double gap_rms = 0, gap_max = 0;   // |gap - equilibrium gap|, m
+  Agglomerate agglomerate;          // at rest at step 0; contacts closed, without histories, as born there
+  double scale = 1;                 // new over old radius
+  std::vector<NearPair> lost;       // listed contacts that could not be kept
+  std::size_t made = 0;             // pairs that came to overlap: contacts, too
+  double largest_move = 0;          // of a particle by closing, m
+  double largest_tension = 0;       // left, in pull-off forces; 0 if there is none
+  double largest_compression = 0;   // the same, positive
+  double gap_rms = 0, gap_max = 0;  // |gap - equilibrium gap|, m
   SelfStress self_stress;
 };
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace crumble {
 
 namespace {
@@ -44,6 +46,8 @@ std::string radius_text(const Scene& scene, const std::optional<Parent>& parent)
   if (!parent) return fmt::format("radius {:g} nm (scene)", 1e9 * scene.real("particle.radius"));
   const double scale = set ? scene.real("particle.radius") / parent->radius : 1;
   if (!set) return fmt::format("radius {:g} nm (file), scaled by 1", 1e9 * parent->radius);
+  if (std::abs(scale - 1) < 1e-9)  // the file's nm do not read back to the same bits
+    return fmt::format("radius {:g} nm (scene), scaled by 1", 1e9 * parent->radius);
   return fmt::format("radius {:g} nm (scene; the file says {:g}), scaled by {:g}", 1e9 * scene.real("particle.radius"),
                      1e9 * parent->radius, scale);
 }

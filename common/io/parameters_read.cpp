@@ -292,8 +292,8 @@ class SceneReader {
       if (parsed.size() == 1) return read_repeated(*parsed.get("value"), section, change.origin);
     } catch (const toml::parse_error&) {
     }
-    wrong_.push_back(fmt::format("{}: {} = {}: must be tables, written [{{kind = \"ramp\", rate = 5000}}]", change.origin,
-                                 section.name, shown(change.value)));
+    wrong_.push_back(fmt::format("{}: {} = {}: must be tables, written [{{kind = \"ramp\", rate = 5000}}]",
+                                 change.origin, section.name, shown(change.value)));
   }
 
   void unknown_key(const std::string& where, const std::string& key) {

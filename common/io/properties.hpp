@@ -14,13 +14,13 @@ namespace crumble {
 using Properties = std::map<std::string, double>;
 
 struct TravellingKey {
-  std::string_view key, path;   // in a scene; in the file
+  std::string_view key, path;    // in a scene; in the file
   std::string_view former = "";  // key of earlier versions
 };
 std::span<const TravellingKey> travelling_keys();
 
-// Those of a file. Before schema version 1.1 they stand only in the resolved scene, under the keys of that time; what is
-// in neither is absent.
+// Those of a file. Before schema version 1.1 they stand only in the resolved scene, under the keys of that time; what
+// is in neither is absent.
 Properties read_properties(const hdf5::File& file);
 
 // Out of the text of a resolved scene; empty where it is none.

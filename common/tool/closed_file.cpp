@@ -53,8 +53,8 @@ void tell(std::ostream& out, const Rescaled& r) {
   out << fmt::format("  new contacts (pairs that closing brought to overlap): {}\n", r.made);
 }
 
-void write_closed(const std::string& file, const Rescaled& r, const Provenance& provenance,
-                  const std::string& settings, const Properties& properties) {
+void write_closed(const std::string& file, const Rescaled& r, const Provenance& provenance, const std::string& settings,
+                  const Properties& properties) {
   const Particles& particles = r.agglomerate.particles;
   FileDescription description;
   description.stage = "agglomerate";

@@ -52,7 +52,8 @@ INSTANTIATE_TEST_SUITE_P(
                   "means 2.48e+09 particles"},
         Malformed{"theta_of_one", PARTICLE DROPLET "[output]\ntheta = [0.2, 1]\n",
                   "drying.toml:8: output.theta = [0.2, 1.0]: 1.0 must be > 0 and < 1"},
-        Malformed{"theta_in_words", PARTICLE DROPLET "[output]\ntheta = \"half\"\n", "must be a list of numbers > 0 and < 1, written [0.2, 0.4]"},
+        Malformed{"theta_in_words", PARTICLE DROPLET "[output]\ntheta = \"half\"\n",
+                  "must be a list of numbers > 0 and < 1, written [0.2, 0.4]"},
         Malformed{"no_speed_of_drying", PARTICLE "[droplet]\nradius = 215e-9\n",
                   "drying.toml: the speed of drying is missing; give one of droplet.lifetime, "
                   "droplet.evaporation_constant, droplet.front_speed, droplet.peclet"},

@@ -54,7 +54,8 @@ Row measured(const Network& net, const HydrodynamicChoice& choice) {
 }
 
 double largest(const Response& r) {
-  return worst_contact(r.tension, std::vector<double>(r.tension.rows(), 1), unit_gradient(FlowKind::elongation)).tension;
+  return worst_contact(r.tension, std::vector<double>(r.tension.rows(), 1), unit_gradient(FlowKind::elongation))
+      .tension;
 }
 
 void table(const char* name, const Spheres& unit, int highest_order) {

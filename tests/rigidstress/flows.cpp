@@ -45,8 +45,8 @@ TEST(Flows, DoubletInUniaxialAndBiaxialFlow) {
 }
 
 TEST(Flows, UnitShearRateMeansTheSameInEveryFlow) {
-  for (const Eigen::Matrix3d& g :
-       {unit_gradient(FlowKind::elongation), unit_gradient(FlowKind::shear), unit_gradient(FlowKind::uniaxial), unit_gradient(FlowKind::biaxial)}) {
+  for (const Eigen::Matrix3d& g : {unit_gradient(FlowKind::elongation), unit_gradient(FlowKind::shear),
+                                   unit_gradient(FlowKind::uniaxial), unit_gradient(FlowKind::biaxial)}) {
     const Eigen::Matrix3d E = 0.5 * (g + g.transpose());
     EXPECT_NEAR(2 * E.squaredNorm(), 1, 1e-15);
     EXPECT_NEAR(g.trace(), 0, 1e-15);
@@ -82,7 +82,8 @@ TEST(Flows, DoubletInTheFlowPlaneReachesTheSupremum) {
   const LoadedBody doublet = loaded(testing::chain(2), 8);
   std::vector<double> times;
   for (int k = 0; k <= 2000; ++k) times.push_back(0.01 * k);
-  const Orbit orbit = follow(doublet, Quaternion::Identity(), times, [](double) { return unit_gradient(FlowKind::shear); });
+  const Orbit orbit =
+      follow(doublet, Quaternion::Identity(), times, [](double) { return unit_gradient(FlowKind::shear); });
   EXPECT_NEAR(orbit.peak.tension / unit, 1.01936, 2e-4);
 }
 
@@ -132,7 +133,8 @@ TEST(History, SteadyShearFromAFileIsSteadyShear) {
   std::vector<double> times;
   for (int k = 0; k <= 200; ++k) times.push_back(0.1 * k);
   for (std::uint32_t k = 0; k < 3; ++k) {
-    const Orbit same = follow(doublet, random_orientation(1, k), times, [](double) { return unit_gradient(FlowKind::shear); });
+    const Orbit same =
+        follow(doublet, random_orientation(1, k), times, [](double) { return unit_gradient(FlowKind::shear); });
     EXPECT_NEAR(found.orbits[k].peak.tension, 100 * same.peak.tension, 1e-5 * 100 * same.peak.tension);
   }
 }

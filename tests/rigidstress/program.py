@@ -126,7 +126,8 @@ class Program(unittest.TestCase):
         # The same, typed.
         typed, _, _ = self.stress(granule, "particle.radius=24e-9", "material.youngs_modulus=7e10", "material.poisson_ratio=0.17",
                                   "material.surface_energy=0.05", scene="/dev/null", output="typed.h5")
-        self.assertEqual(typed["results"]["elongation"], report["results"]["elongation"])
+        for key in ("n_max_worst", "critical_stress_worst_pa", "critical_stress_settled_pa"):
+            self.assertAlmostEqual(typed["results"]["elongation"][key] / report["results"]["elongation"][key], 1, delta=1e-9)
         # What F_po/(6 pi a^2) of this material makes a hundred times that of the paper's spheres of 100 nm.
         self.assertGreater(report["results"]["elongation"]["critical_stress_worst_pa"], 1e5)
 
@@ -152,7 +153,7 @@ class Program(unittest.TestCase):
         _, _, out = self.stress(granule, "contact.rolling_stiffness_factor=2", "hydrodynamics.method=fts")
         with h5py.File(out, "a") as file:
             text = file["parameters/resolved"].asstr()[()]
-            del file["parameters/resolved"], file["material"]
+            del file["parameters/resolved"], file["material"], file["fluid"]
             text = text.replace("[contact]", "[structure]").replace("rolling_stiffness_factor", "bending_factor")
             text = text.replace("twisting_stiffness_factor", "twisting_factor")
             file["parameters"].create_dataset("resolved", data=text, dtype=h5py.string_dtype())
