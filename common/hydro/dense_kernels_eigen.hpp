@@ -1,4 +1,5 @@
-// The definitions of EigenKernels, for the two files that instantiate them: together they take the compiler twice as long.
+// The definitions of EigenKernels, for the two files that instantiate them: one file would take the compiler twice as
+// long.
 #pragma once
 
 #include "common/hydro/dense_tiles.hpp"
