@@ -165,7 +165,7 @@ TEST(AgglomerateFile, ThousandsOfFramesAndNoContactsAreFine) {
   const Folder folder;
   {
     AgglomerateWriter writer(folder / "a.h5", sample_particles(1), sample_description());
-    for (int t = 0; t < 2000; ++t) writer.append(sample_frame(1, 1 + t), sample_observables(t));
+    for (int t = 0; t < 2000; ++t) writer.append(sample_frame(1, 1 + t), sample_observables(t % 2));
     writer.finish("dry");
   }
   const AgglomerateReader reader(folder / "a.h5");
