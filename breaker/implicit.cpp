@@ -49,7 +49,9 @@ Frame Implicit::laboratory() const {
 }
 
 // The step within which events are located: a small strain, in weak flow that of its bound.
-double Implicit::event_step() const { return 0.1 * tolerance_ * model_.viscosity / std::max(stress(frame_.time), model_.weak_stress); }
+double Implicit::event_step() const {
+  return 0.1 * tolerance_ * model_.viscosity / std::max(stress(frame_.time), model_.weak_stress);
+}
 
 // The matrices belong where the step is expected to end: second order like the formula itself.
 void Implicit::renew_hydrodynamics() {

@@ -44,8 +44,8 @@ class BreakupRun {
   Protocol protocol_;
   double coarsening_;
   std::size_t broken_when_lost_;  // particles
-  std::size_t turn_ = 0;   // of the piece that moves next
-  double window_end_ = 0;  // s; all pieces reach it before any goes beyond (only after breakup)
+  std::size_t turn_ = 0;          // of the piece that moves next
+  double window_end_ = 0;         // s; all pieces reach it before any goes beyond (only after breakup)
   Pieces pieces_;
   Course course_;
   bool finished_ = false, broken_ = false, at_stage_end_ = false;

@@ -136,8 +136,8 @@ ProcessInputs process_inputs(const Scene& scene, const Machine& machine) {
   ProcessInputs p;
   p.radius = particle_radii(scene, machine);
   p.viscosity = liquid_property(scene, "fluid.viscosity", water_viscosity, water_viscosity_from, water_viscosity_to);
-  p.surface_tension = liquid_property(scene, "fluid.surface_tension", water_surface_tension,
-                                      water_surface_tension_from, water_surface_tension_to);
+  p.surface_tension = liquid_property(scene, "fluid.surface_tension", water_surface_tension, water_surface_tension_from,
+                                      water_surface_tension_to);
   p.contact_angle = scene.real("fluid.contact_angle") * std::numbers::pi / 180;
   if (scene.flag("particle.brownian_motion")) p.thermal_energy = boltzmann_constant * scene.real("fluid.temperature");
   p.lifetime = lifetime(scene, p);
