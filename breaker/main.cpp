@@ -14,6 +14,7 @@
 #include "common/io/errors.hpp"
 #include "common/io/granule.hpp"
 #include "common/io/interrupt.hpp"
+#include "common/io/machine.hpp"
 #include "common/io/output_lock.hpp"
 #include "common/io/program.hpp"
 
@@ -146,7 +147,7 @@ int break_up(int argc, const char* const* argv) {
   const Parent parent{input, read_info(input).properties, mean_radius(agglomerate.particles)};
   inherit(text, parent);
   BreakerScene scene = breaker_scene(text);
-  const int threads = line.threads > 0 ? line.threads : omp_get_max_threads();
+  const int threads = line.threads > 0 ? line.threads : default_threads(omp_get_max_threads(), this_machine());
   omp_set_num_threads(1);  // beside each other the run and its companion use two cores
   const Provenance provenance = make_provenance("breaker", {argv, argv + argc}, 0, "none", input);
   Report report("breaker", provenance.version, line.scene, std::nullopt);
@@ -178,5 +179,6 @@ int break_up(int argc, const char* const* argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  wait_without_spinning(argv);
   return run_program("breaker", [&] { return break_up(argc, argv); });
 }

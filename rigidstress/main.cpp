@@ -7,6 +7,7 @@
 #include "common/agglomerate/morphology.hpp"
 #include "common/io/command_line.hpp"
 #include "common/io/granule.hpp"
+#include "common/io/machine.hpp"
 #include "common/io/output_lock.hpp"
 #include "common/io/program.hpp"
 #include "common/io/provenance.hpp"
@@ -44,7 +45,7 @@ int load(int argc, const char* const* argv) {
   const Parent parent{input, read_info(input).properties, mean_radius(agglomerate.particles)};
   inherit(text, parent);
   const StressScene scene = stress_scene(text);
-  if (line.threads > 0) omp_set_num_threads(line.threads);
+  omp_set_num_threads(line.threads > 0 ? line.threads : default_threads(omp_get_max_threads(), this_machine()));
   std::optional<OwnedOutputs> owned;
   if (!line.check) owned.emplace(line.written, history_files(text));
   const Provenance provenance = make_provenance("rigidstress", {argv, argv + argc}, scene.seed, rng_name, input);
@@ -80,5 +81,6 @@ int load(int argc, const char* const* argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  wait_without_spinning(argv);
   return run_program("rigidstress", [&] { return load(argc, argv); });
 }
