@@ -132,8 +132,8 @@ HardCase noisy(HardCase of, double thermal_energy = kT) {
   of.deepest = std::max(of.deepest, thermal_energy > 100 * kT ? 1.1 : 0.3);
   // The farthest of eight, of 21 starts 3.4 +- 0.9, at most 5.7.
   if (thermal_energy > 100 * kT) of.thrown = 10;
-  // A long step takes spheres a tenth as large into each other, as deep as they go (2): two of 10 starts, 0.7 and 1.8.
-  if (of.state.particles.radius.back() < 0.2 * a) of.deepest = 2;
+  // Known: with other seeds spheres a tenth as large overlap by 0.7 and 1.8 in two of 10 starts, after a long step.
+  // That is an error of the integrator, so the bound stays.
   return of;
 }
 
