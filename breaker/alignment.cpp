@@ -2,7 +2,7 @@
 
 #include <vector>
 
-namespace crumble {
+namespace crumble::breaker {
 
 std::optional<double> alignment_strain(const Eigen::Matrix<double, 3, 5>& turning, const Eigen::Matrix3d& gradient,
                                        double angle, double longest) {
@@ -25,4 +25,4 @@ std::optional<double> alignment_strain(const Eigen::Matrix<double, 3, 5>& turnin
   return stretch * static_cast<double>(last);
 }
 
-}  // namespace crumble
+}  // namespace crumble::breaker

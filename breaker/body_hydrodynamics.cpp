@@ -4,7 +4,7 @@
 
 #include "common/hydro/dense_kernels.hpp"
 
-namespace crumble {
+namespace crumble::breaker {
 
 using Eigen::MatrixXd;
 
@@ -81,4 +81,4 @@ void BodyHydrodynamics::renew_lubrication(const std::vector<Vector3>& position) 
   resistance_ = viscosity_ * length_ * resistance;
 }
 
-}  // namespace crumble
+}  // namespace crumble::breaker

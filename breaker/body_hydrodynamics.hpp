@@ -5,7 +5,7 @@
 
 #include "common/hydro/model.hpp"
 
-namespace crumble {
+namespace crumble::breaker {
 
 // The frame moves as the whole would if it were rigid and free: with U and Omega relative to the ambient flow at the
 // centre given by `drift`. In this frame, with y = (U_i, L Omega_i) the velocities relative to the frame, L the mean
@@ -53,4 +53,4 @@ class BodyHydrodynamics {
   void invert_far_field();
 };
 
-}  // namespace crumble
+}  // namespace crumble::breaker

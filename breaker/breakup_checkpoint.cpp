@@ -1,6 +1,6 @@
 #include "breaker/breakup_checkpoint.hpp"
 
-namespace crumble {
+namespace crumble::breaker {
 
 void Progression::fields(SavedFields& f) {
   f("next_sample", next_sample);
@@ -35,4 +35,4 @@ void BreakupCheckpoint::resume(BreakupRun& run) const {
   });
 }
 
-}  // namespace crumble
+}  // namespace crumble::breaker

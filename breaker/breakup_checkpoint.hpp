@@ -6,7 +6,7 @@
 #include "breaker/run.hpp"
 #include "common/io/checkpoint.hpp"
 
-namespace crumble {
+namespace crumble::breaker {
 
 // What main keeps beside the run.
 struct Progression {
@@ -27,4 +27,4 @@ class BreakupCheckpoint : public OutputCheckpoint {
   void save(BreakupRun& run, Progression progression) const;
 };
 
-}  // namespace crumble
+}  // namespace crumble::breaker

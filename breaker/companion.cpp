@@ -3,7 +3,7 @@
 #include "common/io/errors.hpp"
 #include "common/io/interrupt.hpp"
 
-namespace crumble {
+namespace crumble::breaker {
 
 Companion::Companion(const BreakerScene& scene, const Agglomerate& start, bool beside) : scene_(scene), start_(start) {
   scene_.until_stable = false;
@@ -40,4 +40,4 @@ double Companion::critical_stress() {
   return result_;
 }
 
-}  // namespace crumble
+}  // namespace crumble::breaker

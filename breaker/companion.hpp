@@ -8,7 +8,7 @@
 
 #include "breaker/run.hpp"
 
-namespace crumble {
+namespace crumble::breaker {
 
 // Runs beside the main run in a thread of its own, or when asked for the result.
 class Companion {
@@ -33,4 +33,4 @@ class Companion {
   void run();
 };
 
-}  // namespace crumble
+}  // namespace crumble::breaker

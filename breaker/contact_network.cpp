@@ -4,7 +4,7 @@
 
 #include "common/agglomerate/bond.hpp"
 
-namespace crumble {
+namespace crumble::breaker {
 
 using Eigen::VectorXd;
 
@@ -139,4 +139,4 @@ NetworkState network_state(const std::vector<Contact>& contacts, const BondLaws&
   return s;
 }
 
-}  // namespace crumble
+}  // namespace crumble::breaker

@@ -11,7 +11,7 @@
 #include "common/contact/bond_laws.hpp"
 #include "common/numerics/saved_fields.hpp"
 
-namespace crumble {
+namespace crumble::breaker {
 
 // The numbers are those of /events/kind in the agglomerate file.
 enum class EventKind : std::int32_t { slip = 0, twist = 1, roll = 2, rupture = 3, made = 4, fragment_lost = 5 };
@@ -69,4 +69,4 @@ struct NetworkState {
 };
 NetworkState network_state(const std::vector<Contact>& contacts, const BondLaws& laws);
 
-}  // namespace crumble
+}  // namespace crumble::breaker

@@ -6,7 +6,7 @@
 #include "common/agglomerate/fragments.hpp"
 #include "common/agglomerate/morphology.hpp"
 
-namespace crumble {
+namespace crumble::breaker {
 
 namespace {
 
@@ -148,4 +148,4 @@ void Course::fields(SavedFields& f) {
   for (Event& e : events_) f("events.sizes", e.sizes);
 }
 
-}  // namespace crumble
+}  // namespace crumble::breaker

@@ -7,7 +7,7 @@
 
 #include "breaker/pieces.hpp"
 
-namespace crumble {
+namespace crumble::breaker {
 
 // Size and shape, and what the flow does to the contacts, at one instant.
 struct Look {
@@ -69,4 +69,4 @@ class Course {
   void look_back(double stress);
 };
 
-}  // namespace crumble
+}  // namespace crumble::breaker

@@ -10,7 +10,7 @@
 
 #include "common/agglomerate/bond_increment.hpp"
 
-namespace crumble {
+namespace crumble::breaker {
 
 using Eigen::VectorXd;
 
@@ -97,4 +97,4 @@ bool ExplicitEuler::step(double latest_time) {
   return move(increment_, dt < dt_ ? latest_time : frame_.time + dt);
 }
 
-}  // namespace crumble
+}  // namespace crumble::breaker

@@ -6,7 +6,7 @@
 #include "breaker/integrator.hpp"
 #include "common/hydro/lagged_hydrodynamics.hpp"
 
-namespace crumble {
+namespace crumble::breaker {
 
 // Velocities from the mobility problem of the present positions in the axes of the laboratory: independent of the
 // frame, the matrices and the solver of the implicit integrator.
@@ -32,4 +32,4 @@ class ExplicitEuler : public Integrator {
   double measured_limit();
 };
 
-}  // namespace crumble
+}  // namespace crumble::breaker

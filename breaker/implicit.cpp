@@ -8,7 +8,7 @@
 
 #include "common/hydro/turning_body.hpp"
 
-namespace crumble {
+namespace crumble::breaker {
 
 using Eigen::VectorXd;
 
@@ -183,4 +183,4 @@ void Implicit::fields(SavedFields& f) {
   hydrodynamics_.renew_lubrication(near_reference_);
 }
 
-}  // namespace crumble
+}  // namespace crumble::breaker

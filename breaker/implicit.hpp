@@ -5,7 +5,7 @@
 #include "breaker/implicit_step.hpp"
 #include "breaker/integrator.hpp"
 
-namespace crumble {
+namespace crumble::breaker {
 
 // What one `tolerance` controls, a being the mean radius and l = h_po - h_eq the range of a bond:
 //   local error of a step      gap of a bond  tolerance l,  anything else  0.1 tolerance a
@@ -51,4 +51,4 @@ class Implicit : public Integrator {
   void renew_hydrodynamics();
 };
 
-}  // namespace crumble
+}  // namespace crumble::breaker

@@ -4,7 +4,7 @@
 
 #include "common/hydro/dense_kernels.hpp"
 
-namespace crumble {
+namespace crumble::breaker {
 
 using Eigen::VectorXd;
 
@@ -115,4 +115,4 @@ ImplicitStep::Outcome ImplicitStep::solve(const Frame& frame, const Problem& pro
   return outcome;
 }
 
-}  // namespace crumble
+}  // namespace crumble::breaker

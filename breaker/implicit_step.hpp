@@ -7,7 +7,7 @@
 #include "common/agglomerate/bond_increment.hpp"
 #include "common/contact/bond_laws.hpp"
 
-namespace crumble {
+namespace crumble::breaker {
 
 // The minimum over the increments q = (dx_i, L dtheta_i) of all spheres of
 //
@@ -50,4 +50,4 @@ class ImplicitStep {
   bool factorise(const Frame& frame, const Problem& problem, const Eigen::VectorXd& q, Curvature curvature);
 };
 
-}  // namespace crumble
+}  // namespace crumble::breaker

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace crumble {
+namespace crumble::breaker {
 
 Integrator::Integrator(const BreakupModel& model, const Protocol& protocol, const std::vector<double>& radius,
                        Frame frame)
@@ -58,4 +58,4 @@ void Integrator::fields(SavedFields& f) {
   network_.fields(f);
 }
 
-}  // namespace crumble
+}  // namespace crumble::breaker

@@ -7,7 +7,7 @@
 #include "common/hydro/linear_flow.hpp"
 #include "common/numerics/saved_fields.hpp"
 
-namespace crumble {
+namespace crumble::breaker {
 
 struct IntegratorStatistics {
   std::int64_t steps = 0, rejected = 0, newton_iterations = 0, factorisations = 0, rigid_steps = 0;
@@ -57,4 +57,4 @@ class Integrator {
   IntegratorStatistics statistics_;
 };
 
-}  // namespace crumble
+}  // namespace crumble::breaker

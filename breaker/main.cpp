@@ -19,6 +19,7 @@
 #include "common/io/program.hpp"
 
 using namespace crumble;
+using namespace crumble::breaker;
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include "common/contact/bond_law.hpp"
 #include "common/hydro/model.hpp"
 
-namespace crumble {
+namespace crumble::breaker {
 
 struct BreakupModel {
   Material material;
@@ -15,4 +15,4 @@ struct BreakupModel {
   Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();  // of the flow at unit shear rate sqrt(2 E:E); zero: at rest
 };
 
-}  // namespace crumble
+}  // namespace crumble::breaker

@@ -7,7 +7,7 @@
 #include "common/agglomerate/fragments.hpp"
 #include "common/agglomerate/saved_frame.hpp"
 
-namespace crumble {
+namespace crumble::breaker {
 
 namespace {
 
@@ -143,4 +143,4 @@ void Pieces::fields(SavedFields& f) {
   });
 }
 
-}  // namespace crumble
+}  // namespace crumble::breaker

@@ -7,7 +7,7 @@
 
 #include "breaker/integrator.hpp"
 
-namespace crumble {
+namespace crumble::breaker {
 
 struct Piece {
   std::vector<std::int32_t> member;  // particle numbers, ascending
@@ -57,4 +57,4 @@ class Pieces {
   IntegratorStatistics retired_;
 };
 
-}  // namespace crumble
+}  // namespace crumble::breaker

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace crumble {
+namespace crumble::breaker {
 
 std::size_t Protocol::stage_at(double time, double& begin) const {
   begin = 0;
@@ -53,4 +53,4 @@ double Protocol::strain(double time) const {
   return sum;
 }
 
-}  // namespace crumble
+}  // namespace crumble::breaker

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace crumble {
+namespace crumble::breaker {
 
 // One stage: the flow stress mu gamma_dot (Pa) starts at `stress` and changes at `rate` (Pa/s) for `duration` (s).
 struct Stage {
@@ -31,4 +31,4 @@ class Protocol {
   std::size_t stage_at(double time, double& begin) const;
 };
 
-}  // namespace crumble
+}  // namespace crumble::breaker

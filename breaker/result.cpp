@@ -12,7 +12,7 @@
 #include "common/agglomerate/morphology.hpp"
 #include "common/io/progress.hpp"
 
-namespace crumble {
+namespace crumble::breaker {
 
 void append_frame(AgglomerateWriter& writer, const BreakupRun& run, const BreakerScene& scene) {
   const NetworkState& n = run.look().network;
@@ -229,4 +229,4 @@ std::vector<std::string> describe(const BreakerScene& scene, const Start& start)
   return lines;
 }
 
-}  // namespace crumble
+}  // namespace crumble::breaker

@@ -8,7 +8,7 @@
 #include "common/io/agglomerate_writer.hpp"
 #include "common/io/report.hpp"
 
-namespace crumble {
+namespace crumble::breaker {
 
 void append_frame(AgglomerateWriter& writer, const BreakupRun& run, const BreakerScene& scene);
 void append_sample(AgglomerateWriter& writer, const BreakupRun& run);
@@ -30,4 +30,4 @@ std::string result_text(const BreakupRun& run, const BreakerScene& scene, std::o
 // What follows from scene and agglomerate before anything is run, a line each.
 std::vector<std::string> describe(const BreakerScene& scene, const Start& start);
 
-}  // namespace crumble
+}  // namespace crumble::breaker

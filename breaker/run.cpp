@@ -11,7 +11,7 @@
 #include "common/agglomerate/morphology.hpp"
 #include "common/io/errors.hpp"
 
-namespace crumble {
+namespace crumble::breaker {
 
 BreakupRun::BreakupRun(const BreakerScene& scene, const Agglomerate& start, double coarsening)
     : scene_(scene),
@@ -145,4 +145,4 @@ void BreakupRun::fields(SavedFields& f) {
   course_.fields(course);
 }
 
-}  // namespace crumble
+}  // namespace crumble::breaker

@@ -7,7 +7,7 @@
 #include "breaker/pieces.hpp"
 #include "breaker/scene.hpp"
 
-namespace crumble {
+namespace crumble::breaker {
 
 class BreakupRun {
  public:
@@ -57,4 +57,4 @@ class BreakupRun {
   void next_turn();
 };
 
-}  // namespace crumble
+}  // namespace crumble::breaker

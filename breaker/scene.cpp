@@ -8,7 +8,7 @@
 #include "common/io/plausible.hpp"
 #include "common/io/shared_parameters.hpp"
 
-namespace crumble {
+namespace crumble::breaker {
 
 namespace {
 
@@ -216,4 +216,4 @@ void adapt(BreakerScene& s, double strength) {
   if (s.frame_interval == 0) s.frame_interval = strength / 20;
 }
 
-}  // namespace crumble
+}  // namespace crumble::breaker

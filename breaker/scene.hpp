@@ -9,7 +9,7 @@
 #include "common/hydro/flow_kind.hpp"
 #include "common/io/parameters.hpp"
 
-namespace crumble {
+namespace crumble::breaker {
 
 const ParameterTable& breaker_parameters();
 
@@ -43,4 +43,4 @@ BreakerScene breaker_scene(const Scene& scene);
 // the ramp, at which stress the run ends, and how often it writes. strength: Pa, > 0.
 void adapt(BreakerScene& scene, double strength);
 
-}  // namespace crumble
+}  // namespace crumble::breaker

@@ -10,7 +10,7 @@
 #include "common/io/errors.hpp"
 #include "common/rigid/strength.hpp"
 
-namespace crumble {
+namespace crumble::breaker {
 
 namespace {
 
@@ -70,4 +70,4 @@ Start make_start(Agglomerate agglomerate, const std::string& name, const Breaker
   return start;
 }
 
-}  // namespace crumble
+}  // namespace crumble::breaker

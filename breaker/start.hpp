@@ -4,7 +4,7 @@
 #include "breaker/scene.hpp"
 #include "common/agglomerate/rescaled.hpp"
 
-namespace crumble {
+namespace crumble::breaker {
 
 struct Start {
   Agglomerate agglomerate;  // at rest, time 0
@@ -19,4 +19,4 @@ struct Start {
 // agglomerate is in several pieces unless the scene takes the largest; std::runtime_error if closing does not converge.
 Start make_start(Agglomerate agglomerate, const std::string& name, const BreakerScene& scene);
 
-}  // namespace crumble
+}  // namespace crumble::breaker

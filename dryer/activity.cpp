@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace crumble {
+namespace crumble::dryer {
 
 Activity::Activity(const Particles& particles, const Frame& frame) : active_(particles.size(), 0) {
   for (std::size_t p = 0; p < particles.size(); ++p)
@@ -36,4 +36,4 @@ void Activity::fields(SavedFields& f) {
   for (const std::int32_t particle : awake) wake(particle);
 }
 
-}  // namespace crumble
+}  // namespace crumble::dryer

@@ -8,7 +8,7 @@
 #include "common/agglomerate/agglomerate.hpp"
 #include "common/numerics/saved_fields.hpp"
 
-namespace crumble {
+namespace crumble::dryer {
 
 // Without Brownian motion a particle rests until the front reaches it or another particle is bonded to it. Such
 // particles are not integrated: their equation of motion has no force in it.
@@ -28,4 +28,4 @@ class Activity {
   std::vector<std::pair<double, std::int32_t>> waiting_;  // (r + a, particle), ascending
 };
 
-}  // namespace crumble
+}  // namespace crumble::dryer

@@ -3,7 +3,7 @@
 #include <Eigen/OrderingMethods>
 #include <algorithm>
 
-namespace crumble {
+namespace crumble::dryer {
 
 void BlockCholesky::set_pattern(std::int32_t blocks, const std::vector<BlockPair>& pairs) {
   // Order the block graph, not the scalar one: 36 times smaller.
@@ -92,4 +92,4 @@ void BlockCholesky::solve(const std::vector<Vector6>& right, std::vector<Vector6
   for (std::size_t p = 0; p < right.size(); ++p) solution[p] = work_.segment<6>(6 * place_[p]);
 }
 
-}  // namespace crumble
+}  // namespace crumble::dryer

@@ -9,7 +9,7 @@
 
 #include "common/agglomerate/agglomerate.hpp"
 
-namespace crumble {
+namespace crumble::dryer {
 
 struct BlockPair {
   std::int32_t i, j;  // i != j, blocks counted from 0
@@ -42,4 +42,4 @@ class BlockCholesky {
   Eigen::VectorXd work_;
 };
 
-}  // namespace crumble
+}  // namespace crumble::dryer

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace crumble {
+namespace crumble::dryer {
 
 namespace {
 
@@ -347,4 +347,4 @@ BondBlock::Stiffness BondBlock::stiffening_on(std::size_t place) const {
   return sum;
 }
 
-}  // namespace crumble
+}  // namespace crumble::dryer

@@ -13,7 +13,7 @@
 #include "common/numerics/neighbours.hpp"
 #include "dryer/six_vector.hpp"
 
-namespace crumble {
+namespace crumble::dryer {
 
 // Positions and rotations of a set of particles. Index: place in the set. Positions need all digits, since gaps
 // are differences of them; everything else is a small number of its own.
@@ -156,4 +156,4 @@ void BondBlock::hand_back(const std::vector<Index>& particle, const BondLaws& la
   });
 }
 
-}  // namespace crumble
+}  // namespace crumble::dryer

@@ -10,7 +10,7 @@
 #include "dryer/drag.hpp"
 #include "dryer/surface_pull.hpp"
 
-namespace crumble {
+namespace crumble::dryer {
 
 namespace {
 
@@ -58,7 +58,7 @@ Brownian::Brownian(const DryingModel& model, Agglomerate& state, std::uint64_t s
 }
 
 bool Brownian::is_dry(std::int32_t p) const {
-  return crumble::is_dry(state_.particles.radius[p], state_.state.position[p].norm(), R_);
+  return dryer::is_dry(state_.particles.radius[p], state_.state.position[p].norm(), R_);
 }
 
 void Brownian::step(double latest_time) {
@@ -268,4 +268,4 @@ void Brownian::fields(SavedFields& f) {
   f("ahead", ahead_);
 }
 
-}  // namespace crumble
+}  // namespace crumble::dryer

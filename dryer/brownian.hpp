@@ -5,7 +5,7 @@
 #include "dryer/brownian_path.hpp"
 #include "dryer/integrator.hpp"
 
-namespace crumble {
+namespace crumble::dryer {
 
 struct BrownianControl {
   double contact_step = 0.15;  // the short step, in the time a = zeta/k_n in which a contact relaxes
@@ -85,4 +85,4 @@ class Brownian : public Integrator {
   std::vector<float> noise_, slow_noise_;
 };
 
-}  // namespace crumble
+}  // namespace crumble::dryer

@@ -10,7 +10,7 @@
 // After it:
 #include <hwy/contrib/math/math-inl.h>
 
-namespace crumble {
+namespace crumble::dryer {
 
 namespace {
 
@@ -102,4 +102,4 @@ void BrownianPath::fill(std::span<const std::uint32_t> particle, std::uint64_t i
   }
 }
 
-}  // namespace crumble
+}  // namespace crumble::dryer

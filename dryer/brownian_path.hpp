@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace crumble {
+namespace crumble::dryer {
 
 // A Wiener process in six components (three translations, three rotations) per particle. The increment W over a whole
 // interval is drawn first; the n that fill it are independent normal numbers xi under the condition that they sum to
@@ -34,4 +34,4 @@ class BrownianPath {
   std::uint64_t seed_;
 };
 
-}  // namespace crumble
+}  // namespace crumble::dryer

@@ -6,7 +6,7 @@
 
 #include "dryer/droplet.hpp"
 
-namespace crumble {
+namespace crumble::dryer {
 
 // Largest force with which a liquid that meets the particle at the contact angle theta holds it back at the surface, in
 // that on a perfectly wetted one (theta = 0):
@@ -58,4 +58,4 @@ inline double capillary_energy(double surface_tension, double a, double offset) 
   return 2 * std::numbers::pi * surface_tension * area;
 }
 
-}  // namespace crumble
+}  // namespace crumble::dryer

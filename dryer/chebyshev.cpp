@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace crumble {
+namespace crumble::dryer {
 
 namespace {
 constexpr double damping = 2;  // T_s(w0) = cosh(2) in the limit of many stages
@@ -32,4 +32,4 @@ Chebyshev::Chebyshev(int stages) {
   }
 }
 
-}  // namespace crumble
+}  // namespace crumble::dryer

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-namespace crumble {
+namespace crumble::dryer {
 
 // The damped Runge-Kutta-Chebyshev method of first order: s evaluations of f make a step of dx/dt = f(x) as long as
 // 0.96 s^2/rate, where s steps of Euler's method would reach 2 s/rate; rate: largest eigenvalue of -df/dx, 1/s. With
@@ -26,4 +26,4 @@ struct Chebyshev {
   std::vector<double> reached;  // c_j
 };
 
-}  // namespace crumble
+}  // namespace crumble::dryer

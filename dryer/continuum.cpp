@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace crumble {
+namespace crumble::dryer {
 
 namespace {
 
@@ -189,4 +189,4 @@ std::vector<ContinuumProfile> continuum_profiles(double peclet, const std::vecto
   return profiles;
 }
 
-}  // namespace crumble
+}  // namespace crumble::dryer

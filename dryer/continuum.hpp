@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace crumble {
+namespace crumble::dryer {
 
 //   dC/dt = D r^-2 d/dr(r^2 dC/dr)                                                        (paper, Eq. 25)
 //   dC/dr = 0 at r = 0                                                                    (paper, Eq. 26)
@@ -75,4 +75,4 @@ struct ContinuumProfile {
 // Profiles at increasing 0 <= theta < 1. Throws std::domain_error naming what is out of range.
 std::vector<ContinuumProfile> continuum_profiles(double peclet, const std::vector<double>& theta);
 
-}  // namespace crumble
+}  // namespace crumble::dryer

@@ -12,7 +12,7 @@
 #include "common/io/report.hpp"
 #include "dryer/continuum.hpp"
 
-namespace crumble {
+namespace crumble::dryer {
 
 namespace {
 
@@ -122,4 +122,4 @@ int continuum_command(int argc, const char* const* argv) {
   return 0;
 }
 
-}  // namespace crumble
+}  // namespace crumble::dryer

@@ -13,7 +13,7 @@
 #include "dryer/run.hpp"
 #include "dryer/start.hpp"
 
-namespace crumble {
+namespace crumble::dryer {
 
 namespace {
 
@@ -132,4 +132,4 @@ double measured_seconds(const DryingScene& scene, SampleState state) {
   return seconds;
 }
 
-}  // namespace crumble
+}  // namespace crumble::dryer

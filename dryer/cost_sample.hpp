@@ -3,7 +3,7 @@
 
 #include "dryer/scene.hpp"
 
-namespace crumble {
+namespace crumble::dryer {
 
 // Up to two hundred particles, of radii evenly taken from the scene's.
 enum class SampleState {
@@ -18,4 +18,4 @@ double measured_seconds(const DryingScene& scene, SampleState state);
 // How many particles the sample has.
 std::size_t sample_size(const DryingScene& scene);
 
-}  // namespace crumble
+}  // namespace crumble::dryer

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace crumble {
+namespace crumble::dryer {
 
 // How much farther than the step's largest displacement the few may go that snap into a new place: fewer than one
 // particle in a thousand. They must not slow down a large droplet: their number grows with that of the particles.
@@ -19,4 +19,4 @@ inline double largest_but_snaps(std::vector<double>& moves) {
   return std::max(*place, *std::max_element(place, moves.end()) / snap);
 }
 
-}  // namespace crumble
+}  // namespace crumble::dryer

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace crumble {
+namespace crumble::dryer {
 
 // F = -zeta v, zeta = 6 pi mu a (Stokes), N s/m.                                                  (paper, Eq. 2)
 constexpr double drag_coefficient(double viscosity, double a) { return 6 * std::numbers::pi * viscosity * a; }
@@ -30,4 +30,4 @@ constexpr double diffusivity(double temperature, double viscosity, double a) {
   return boltzmann_constant * temperature / drag_coefficient(viscosity, a);
 }
 
-}  // namespace crumble
+}  // namespace crumble::dryer

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace crumble {
+namespace crumble::dryer {
 
 struct Droplet {
   double initial_radius = 0;   // R0, m
@@ -30,4 +30,4 @@ struct Droplet {
   double front_speed(double R) const { return initial_radius * initial_radius / (2 * lifetime * R); }
 };
 
-}  // namespace crumble
+}  // namespace crumble::dryer

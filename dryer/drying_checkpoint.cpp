@@ -1,6 +1,6 @@
 #include "dryer/drying_checkpoint.hpp"
 
-namespace crumble {
+namespace crumble::dryer {
 
 void DryingProgress::fields(SavedFields& f) {
   f("frames", frames);
@@ -36,4 +36,4 @@ DryingRun DryingCheckpoint::resume(const DryingScene& scene) const {
   });
 }
 
-}  // namespace crumble
+}  // namespace crumble::dryer

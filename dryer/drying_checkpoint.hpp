@@ -6,7 +6,7 @@
 #include "common/io/checkpoint.hpp"
 #include "dryer/run.hpp"
 
-namespace crumble {
+namespace crumble::dryer {
 
 // What main keeps beside the run.
 struct DryingProgress {
@@ -25,4 +25,4 @@ class DryingCheckpoint : public OutputCheckpoint {
   void save(DryingRun& run, DryingProgress progress) const;
 };
 
-}  // namespace crumble
+}  // namespace crumble::dryer

@@ -13,7 +13,7 @@
 #include "dryer/process_inputs.hpp"
 #include "dryer/run.hpp"
 
-namespace crumble {
+namespace crumble::dryer {
 
 namespace {
 
@@ -193,4 +193,4 @@ std::string expected_cost_text(const DryingScene& s, const ExpectedCost& cost, c
                      memory);
 }
 
-}  // namespace crumble
+}  // namespace crumble::dryer

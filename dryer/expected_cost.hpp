@@ -7,7 +7,7 @@
 #include "common/io/machine.hpp"
 #include "dryer/scene.hpp"
 
-namespace crumble {
+namespace crumble::dryer {
 
 struct ExpectedCost {
   double steps = 0;
@@ -35,4 +35,4 @@ ExpectedCost expected_cost(const DryingScene& scene);
 // "expected: about 1900 steps, 2 to 4 s on one core", and the memory, of what there is.
 std::string expected_cost_text(const DryingScene& scene, const ExpectedCost& cost, const Machine& machine);
 
-}  // namespace crumble
+}  // namespace crumble::dryer

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace crumble {
+namespace crumble::dryer {
 
 DryCrust dry_crust(const Particles& particles, const Frame& frame, double R) {
   double covered = 0, reach = 0;
@@ -32,4 +32,4 @@ void Front::follow(const Agglomerate& state) {
   past_ = {now, passed, crust.covered > 0 ? crust_hindrance(relative_, crust.covered, R, crust.reach) : 1};
 }
 
-}  // namespace crumble
+}  // namespace crumble::dryer

@@ -5,7 +5,7 @@
 #include "common/numerics/saved_fields.hpp"
 #include "dryer/droplet.hpp"
 
-namespace crumble {
+namespace crumble::dryer {
 
 // Rate of evaporation behind a dry crust in that of the free droplet of the same radius R. Vapour diffuses through
 // still gas outside R_p and through the pores of the crust between R and R_p, where its diffusivity is `relative` times
@@ -55,4 +55,4 @@ class Front {
   Past past_;
 };
 
-}  // namespace crumble
+}  // namespace crumble::dryer

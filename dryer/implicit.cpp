@@ -9,7 +9,7 @@
 #include "common/contact/kinematics.hpp"
 #include "dryer/displacement.hpp"
 
-namespace crumble {
+namespace crumble::dryer {
 
 namespace {
 
@@ -187,4 +187,4 @@ void Implicit::accept(double dt) {
   front_.follow(state_);
 }
 
-}  // namespace crumble
+}  // namespace crumble::dryer

@@ -5,7 +5,7 @@
 #include "dryer/implicit_step.hpp"
 #include "dryer/integrator.hpp"
 
-namespace crumble {
+namespace crumble::dryer {
 
 struct ImplicitControl {
   double largest_displacement = 0.01;  // of any particle in one step, in its radius
@@ -58,4 +58,4 @@ class Implicit : public Integrator {
   std::vector<Vector6> rate_;  // velocities of the last step, per particle
 };
 
-}  // namespace crumble
+}  // namespace crumble::dryer

@@ -5,7 +5,7 @@
 
 #include "dryer/drag.hpp"
 
-namespace crumble {
+namespace crumble::dryer {
 
 using Matrix3 = Eigen::Matrix3d;
 
@@ -164,4 +164,4 @@ ImplicitStep::Outcome ImplicitStep::solve(double dt, double R, double tolerance)
   return outcome;
 }
 
-}  // namespace crumble
+}  // namespace crumble::dryer

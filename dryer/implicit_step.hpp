@@ -6,7 +6,7 @@
 #include "dryer/block_cholesky.hpp"
 #include "dryer/model.hpp"
 
-namespace crumble {
+namespace crumble::dryer {
 
 // Backward Euler for zeta dx/dt = F(x), zeta_r dtheta/dt = T, written as the minimum of
 //
@@ -63,4 +63,4 @@ class ImplicitStep {
   BlockCholesky matrix_;
 };
 
-}  // namespace crumble
+}  // namespace crumble::dryer

@@ -9,7 +9,7 @@
 #include "common/agglomerate/bond.hpp"
 #include "dryer/drag.hpp"
 
-namespace crumble {
+namespace crumble::dryer {
 
 Inertial::Inertial(const DryingModel& model, Agglomerate& state, double step, std::uint64_t seed)
     : Integrator(model, state, 0.1), step_(step), seed_(seed) {
@@ -105,4 +105,4 @@ void Inertial::evaluate_forces() {
   }
 }
 
-}  // namespace crumble
+}  // namespace crumble::dryer

@@ -5,7 +5,7 @@
 #include "common/numerics/noise.hpp"
 #include "dryer/integrator.hpp"
 
-namespace crumble {
+namespace crumble::dryer {
 
 //   m dv/dt = sum of all forces,   I dW/dt = sum of all torques                           (paper, Eq. 1)
 // One step is a symmetric splitting: half a kick, a drift, half a kick. In a kick the force is constant and
@@ -40,4 +40,4 @@ class Inertial : public Integrator {
   std::vector<HalfKick> kicks_;  // per particle
 };
 
-}  // namespace crumble
+}  // namespace crumble::dryer

@@ -4,7 +4,7 @@
 
 #include "common/agglomerate/bond.hpp"
 
-namespace crumble {
+namespace crumble::dryer {
 
 namespace {
 double smallest(const std::vector<double>& radius) { return *std::min_element(radius.begin(), radius.end()); }
@@ -84,4 +84,4 @@ void Integrator::fields(SavedFields& f) {
   activity_.fields(f);
 }
 
-}  // namespace crumble
+}  // namespace crumble::dryer

@@ -12,7 +12,7 @@
 #include "dryer/front.hpp"
 #include "dryer/model.hpp"
 
-namespace crumble {
+namespace crumble::dryer {
 
 struct IntegratorStatistics {
   std::int64_t steps = 0, rejected = 0, newton_iterations = 0;
@@ -76,4 +76,4 @@ bool Integrator::advance_bonds(MotionOf motion_of) {
   return update_network(lost);
 }
 
-}  // namespace crumble
+}  // namespace crumble::dryer

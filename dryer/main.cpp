@@ -22,6 +22,7 @@
 #include "dryer/scene.hpp"
 
 using namespace crumble;
+using namespace crumble::dryer;
 
 namespace {
 

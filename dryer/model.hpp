@@ -5,7 +5,7 @@
 #include "dryer/capillary.hpp"
 #include "dryer/droplet.hpp"
 
-namespace crumble {
+namespace crumble::dryer {
 
 // What holds for a particle that the liquid has left behind (r > R + a).
 struct DryParticles {
@@ -23,4 +23,4 @@ struct DryingModel {
   DryParticles dry;
 };
 
-}  // namespace crumble
+}  // namespace crumble::dryer

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace crumble {
+namespace crumble::dryer {
 
 PairStatistics pair_statistics(const Jkr& law, double kT, double diffusivity) {
   // From where the energy is 40 kT above the minimum, in even steps of the gap.
@@ -68,4 +68,4 @@ Material softened(const Material& material, double a, double kT, double factor) 
   return with_energy(high);
 }
 
-}  // namespace crumble
+}  // namespace crumble::dryer

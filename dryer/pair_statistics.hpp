@@ -3,7 +3,7 @@
 
 #include "common/contact/jkr.hpp"
 
-namespace crumble {
+namespace crumble::dryer {
 
 struct PairStatistics {
   double lifetime;    // mean time from making at h = 0 to loss at h_po, s
@@ -28,4 +28,4 @@ double second_virial_ratio(double stickiness, double a);
 // a: radius of the pair, m. Throws std::invalid_argument if factor < 1 or no such material exists.
 Material softened(const Material& material, double a, double thermal_energy, double factor);
 
-}  // namespace crumble
+}  // namespace crumble::dryer

@@ -6,7 +6,7 @@
 
 #include "common/numerics/noise.hpp"
 
-namespace crumble {
+namespace crumble::dryer {
 
 namespace {
 
@@ -57,4 +57,4 @@ std::vector<double> radii_by_volume(const RadiusDistribution& d, double sum_of_c
   }
 }
 
-}  // namespace crumble
+}  // namespace crumble::dryer

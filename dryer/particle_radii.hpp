@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace crumble {
+namespace crumble::dryer {
 
 struct RadiusDistribution {
   enum class Kind { equal, lognormal, bimodal };
@@ -23,4 +23,4 @@ struct RadiusDistribution {
 std::vector<double> radii_by_number(const RadiusDistribution& distribution, std::size_t number, std::uint64_t seed);
 std::vector<double> radii_by_volume(const RadiusDistribution& distribution, double sum_of_cubes, std::uint64_t seed);
 
-}  // namespace crumble
+}  // namespace crumble::dryer

@@ -5,7 +5,7 @@
 #include "common/agglomerate/agglomerate.hpp"
 #include "common/numerics/noise.hpp"
 
-namespace crumble {
+namespace crumble::dryer {
 
 namespace {
 
@@ -35,4 +35,4 @@ std::vector<double> PointParticles::radii(double theta) const {
   return radii;
 }
 
-}  // namespace crumble
+}  // namespace crumble::dryer

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace crumble {
+namespace crumble::dryer {
 
 struct PointParticles {
   double peclet = 1;
@@ -19,4 +19,4 @@ struct PointParticles {
   std::vector<double> radii(double theta) const;
 };
 
-}  // namespace crumble
+}  // namespace crumble::dryer

@@ -11,7 +11,7 @@
 #include "dryer/water_surface_tension.hpp"
 #include "dryer/water_viscosity.hpp"
 
-namespace crumble {
+namespace crumble::dryer {
 
 namespace {
 
@@ -144,4 +144,4 @@ ProcessInputs process_inputs(const Scene& scene, const Machine& machine) {
   return p;
 }
 
-}  // namespace crumble
+}  // namespace crumble::dryer

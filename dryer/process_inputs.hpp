@@ -6,7 +6,7 @@
 #include "common/io/machine.hpp"
 #include "common/io/parameters.hpp"
 
-namespace crumble {
+namespace crumble::dryer {
 
 struct ProcessInputs {
   std::vector<double> radius;  // of the N particles, descending, m
@@ -29,4 +29,4 @@ ProcessInputs process_inputs(const Scene& scene, const Machine& machine);
 // At the peak of a run, bytes: 1200 a particle, rounded up from the 1,100 of stabilised steps in dryer/README.md.
 double memory_of(double particles);
 
-}  // namespace crumble
+}  // namespace crumble::dryer

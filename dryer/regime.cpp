@@ -8,7 +8,7 @@
 
 #include "dryer/drag.hpp"
 
-namespace crumble {
+namespace crumble::dryer {
 
 DryingRegime drying_regime(const DryingScene& s) {
   const Droplet& droplet = s.model.droplet;
@@ -109,4 +109,4 @@ void report_regime(Report& report, const DryingScene& s) {
   if (steps_are_free(s)) report.result("inputs.integrator", integrator_text(s));
 }
 
-}  // namespace crumble
+}  // namespace crumble::dryer

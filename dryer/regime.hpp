@@ -7,7 +7,7 @@
 #include "common/io/report.hpp"
 #include "dryer/scene.hpp"
 
-namespace crumble {
+namespace crumble::dryer {
 
 struct DryingRegime {
   double solids_fraction = 0;       // phi = sum a^3/R0^3
@@ -35,4 +35,4 @@ std::vector<std::string> describe(const DryingScene& scene);
 // For the report: the derived numbers in the group `inputs`, the regime in words.
 void report_regime(Report& report, const DryingScene& scene);
 
-}  // namespace crumble
+}  // namespace crumble::dryer

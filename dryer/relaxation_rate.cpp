@@ -6,7 +6,7 @@
 
 #include "common/numerics/noise.hpp"
 
-namespace crumble {
+namespace crumble::dryer {
 
 namespace {
 
@@ -102,4 +102,4 @@ double rate_increase(const BondBlock& bonds, const Mobility& mobility, double ra
   return rate;
 }
 
-}  // namespace crumble
+}  // namespace crumble::dryer

@@ -3,7 +3,7 @@
 
 #include "dryer/bond_block.hpp"
 
-namespace crumble {
+namespace crumble::dryer {
 
 // Mobilities of the particles of a motion block.
 struct Mobility {
@@ -32,4 +32,4 @@ double relaxation_rate(BondBlock& bonds, const Mobility& mobility);
 double rate_increase(const BondBlock& bonds, const Mobility& mobility, double radius, std::size_t place,
                      double known = 0);
 
-}  // namespace crumble
+}  // namespace crumble::dryer

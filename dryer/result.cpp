@@ -6,7 +6,7 @@
 
 #include "dryer/drag.hpp"
 
-namespace crumble {
+namespace crumble::dryer {
 
 void append_frame(AgglomerateWriter& writer, const DryingRun& run) {
   const auto surface = run.surface();
@@ -109,4 +109,4 @@ std::string result_text(const Morphology& m, const std::optional<DryingOutcome>&
   return text;
 }
 
-}  // namespace crumble
+}  // namespace crumble::dryer

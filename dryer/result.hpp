@@ -7,7 +7,7 @@
 #include "common/io/report.hpp"
 #include "dryer/run.hpp"
 
-namespace crumble {
+namespace crumble::dryer {
 
 void append_frame(AgglomerateWriter& writer, const DryingRun& run);
 void write_morphology(AgglomerateWriter& writer, const Morphology& morphology);
@@ -19,4 +19,4 @@ void fill_report(Report& report, const DryingScene& scene, const DryingRun& run,
 // A few lines for the terminal.
 std::string result_text(const Morphology& morphology, const std::optional<DryingOutcome>& companion);
 
-}  // namespace crumble
+}  // namespace crumble::dryer

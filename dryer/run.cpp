@@ -7,7 +7,7 @@
 #include "dryer/inertial.hpp"
 #include "dryer/start.hpp"
 
-namespace crumble {
+namespace crumble::dryer {
 
 std::unique_ptr<Integrator> make_integrator(const DryingScene& scene, const DryingModel& model, double coarsening,
                                             int depth, Agglomerate& state) {
@@ -140,4 +140,4 @@ DryingOutcome outcome(const Morphology& m) {
   return {m.extent.diameter(), m.extent.relative_crust(), static_cast<double>(m.contacts)};
 }
 
-}  // namespace crumble
+}  // namespace crumble::dryer

@@ -8,7 +8,7 @@
 #include "dryer/scene.hpp"
 #include "dryer/softening.hpp"
 
-namespace crumble {
+namespace crumble::dryer {
 
 // The scene's integrator for a state. coarsening: factor on its step control; depth: of Brownian steps.
 std::unique_ptr<Integrator> make_integrator(const DryingScene& scene, const DryingModel& model, double coarsening,
@@ -75,4 +75,4 @@ struct DryingOutcome {
 };
 DryingOutcome outcome(const Morphology& morphology);
 
-}  // namespace crumble
+}  // namespace crumble::dryer

@@ -13,7 +13,7 @@
 #include "dryer/process_inputs.hpp"
 #include "dryer/softening.hpp"
 
-namespace crumble {
+namespace crumble::dryer {
 
 namespace {
 
@@ -103,4 +103,4 @@ DryingScene drying_scene(const Scene& scene, const Machine& machine) {
   return s;
 }
 
-}  // namespace crumble
+}  // namespace crumble::dryer

@@ -10,7 +10,7 @@
 #include "dryer/model.hpp"
 #include "dryer/stabilised.hpp"
 
-namespace crumble {
+namespace crumble::dryer {
 
 const ParameterTable& drying_parameters();
 
@@ -42,4 +42,4 @@ struct DryingScene {
 // Also if the droplet needs more memory than the machine has.
 DryingScene drying_scene(const Scene& scene, const Machine& machine = this_machine());
 
-}  // namespace crumble
+}  // namespace crumble::dryer

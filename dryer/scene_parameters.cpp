@@ -2,7 +2,7 @@
 #include "common/io/shared_parameters.hpp"
 #include "dryer/scene.hpp"
 
-namespace crumble {
+namespace crumble::dryer {
 
 using P = Parameter;
 
@@ -164,4 +164,4 @@ const ParameterTable& drying_parameters() {
   return table;
 }
 
-}  // namespace crumble
+}  // namespace crumble::dryer

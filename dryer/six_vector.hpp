@@ -7,7 +7,7 @@
 #include "common/agglomerate/agglomerate.hpp"
 #include "common/numerics/simd.hpp"
 
-namespace crumble {
+namespace crumble::dryer {
 
 // From so many numbers on, several threads are worth it.
 inline constexpr std::size_t many = 2000;
@@ -138,4 +138,4 @@ inline constexpr auto lane_at_place = [] {
   return lane;
 }();
 
-}  // namespace crumble
+}  // namespace crumble::dryer

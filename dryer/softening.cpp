@@ -5,7 +5,7 @@
 #include "dryer/drag.hpp"
 #include "dryer/pair_statistics.hpp"
 
-namespace crumble {
+namespace crumble::dryer {
 
 namespace {
 
@@ -47,4 +47,4 @@ DryingModel softened_model(const DryingScene& scene, double softening) {
   return model;
 }
 
-}  // namespace crumble
+}  // namespace crumble::dryer

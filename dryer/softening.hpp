@@ -6,7 +6,7 @@
 
 #include "dryer/scene.hpp"
 
-namespace crumble {
+namespace crumble::dryer {
 
 struct SofteningStage {
   double softening;                                             // width of the bond in that of the material's
@@ -29,4 +29,4 @@ bool can_be_softened(const DryingScene& scene, double softening);
 // What the integrator is given: the scene's model, with its contacts softened if particles diffuse.
 DryingModel softened_model(const DryingScene& scene, double softening);
 
-}  // namespace crumble
+}  // namespace crumble::dryer

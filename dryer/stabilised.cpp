@@ -12,7 +12,7 @@
 #include "dryer/drag.hpp"
 #include "dryer/surface_pull.hpp"
 
-namespace crumble {
+namespace crumble::dryer {
 
 namespace {
 
@@ -367,4 +367,4 @@ void Stabilised::fields(SavedFields& f) {
   f("next_step", next_dt_);
 }
 
-}  // namespace crumble
+}  // namespace crumble::dryer

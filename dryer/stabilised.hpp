@@ -7,7 +7,7 @@
 #include "dryer/integrator.hpp"
 #include "dryer/relaxation_rate.hpp"
 
-namespace crumble {
+namespace crumble::dryer {
 
 struct StabilisedControl {
   double largest_displacement = 0.02;  // of a particle in one stabilised step, in its radius
@@ -64,4 +64,4 @@ class Stabilised : public Integrator {
   std::vector<char> closer_;
 };
 
-}  // namespace crumble
+}  // namespace crumble::dryer

@@ -8,7 +8,7 @@
 
 #include "common/numerics/noise.hpp"
 
-namespace crumble {
+namespace crumble::dryer {
 
 namespace {
 
@@ -79,4 +79,4 @@ Agglomerate random_suspension(const std::vector<double>& radius, double density,
   return state;
 }
 
-}  // namespace crumble
+}  // namespace crumble::dryer

@@ -3,7 +3,7 @@
 
 #include "common/agglomerate/agglomerate.hpp"
 
-namespace crumble {
+namespace crumble::dryer {
 
 // Particles of given radii (m) and density (kg/m^3), numbered from 0.
 Particles suspended_particles(const std::vector<double>& radius, double density);
@@ -14,4 +14,4 @@ Particles suspended_particles(const std::vector<double>& radius, double density)
 Agglomerate random_suspension(const std::vector<double>& radius, double density, double droplet_radius,
                               std::uint64_t seed);
 
-}  // namespace crumble
+}  // namespace crumble::dryer

@@ -7,7 +7,7 @@
 
 #include "dryer/six_vector.hpp"
 
-namespace crumble {
+namespace crumble::dryer {
 
 // Force of capillary_force() (Eq. 8) over the distance from the centre of the droplet, N/m, for a particle of
 // radius a at a distance whose square is larger than that of the front by `excess`: r - R as a difference of squares,
@@ -35,4 +35,4 @@ inline void surface_pulls(double surface_tension, double R, const Position* posi
     surface_pull<Lane>(sigma, front, Lane::load(radius + m), Lane::load(pull + m)).store(pull + m);
 }
 
-}  // namespace crumble
+}  // namespace crumble::dryer

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace crumble {
+namespace crumble::dryer {
 
 double water_surface_tension(double temperature) {
   if (!(temperature >= water_surface_tension_from && temperature <= water_surface_tension_to))
@@ -12,4 +12,4 @@ double water_surface_tension(double temperature) {
   return 235.8e-3 * std::pow(x, 1.256) * (1 - 0.625 * x);
 }
 
-}  // namespace crumble
+}  // namespace crumble::dryer

@@ -1,7 +1,7 @@
 // Surface tension of water, for scenes that say fluid.surface_tension = "water".
 #pragma once
 
-namespace crumble {
+namespace crumble::dryer {
 
 inline constexpr double water_critical_temperature = 647.096;  // K
 inline constexpr double water_surface_tension_from = 248.15,
@@ -14,4 +14,4 @@ inline constexpr double water_surface_tension_from = 248.15,
 // that it extrapolates to 248.15 K. Throws std::domain_error outside.
 double water_surface_tension(double temperature);
 
-}  // namespace crumble
+}  // namespace crumble::dryer

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace crumble {
+namespace crumble::dryer {
 
 double water_viscosity(double temperature) {
   if (!(temperature >= water_viscosity_from && temperature <= water_viscosity_to))
@@ -13,4 +13,4 @@ double water_viscosity(double temperature) {
                  0.45903 * std::pow(t, -40.0));
 }
 
-}  // namespace crumble
+}  // namespace crumble::dryer

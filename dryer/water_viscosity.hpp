@@ -1,7 +1,7 @@
 // Viscosity of water, for scenes that say fluid.viscosity = "water".
 #pragma once
 
-namespace crumble {
+namespace crumble::dryer {
 
 inline constexpr double water_viscosity_from = 253.15, water_viscosity_to = 383.15;  // range of the correlation, K
 
@@ -13,4 +13,4 @@ inline constexpr double water_viscosity_from = 253.15, water_viscosity_to = 383.
 // range of the correlation.
 double water_viscosity(double temperature);
 
-}  // namespace crumble
+}  // namespace crumble::dryer

@@ -4,7 +4,7 @@
 
 #include "common/io/errors.hpp"
 
-namespace crumble {
+namespace crumble::rigidstress {
 
 namespace {
 
@@ -79,4 +79,4 @@ void run_flows(Analysis& analysis, const StressScene& scene) {
   }
 }
 
-}  // namespace crumble
+}  // namespace crumble::rigidstress

@@ -4,7 +4,7 @@
 #include "rigidstress/prepared.hpp"
 #include "rigidstress/scene.hpp"
 
-namespace crumble {
+namespace crumble::rigidstress {
 
 // One connected part in all the flows of the scene.
 struct BodyResult {
@@ -36,4 +36,4 @@ Analysis analyse(Prepared prepared, const std::string& name, const StressScene& 
 // Runs the flows on the responses.
 void run_flows(Analysis& analysis, const StressScene& scene);
 
-}  // namespace crumble
+}  // namespace crumble::rigidstress

@@ -6,7 +6,7 @@
 
 #include "common/numerics/noise.hpp"
 
-namespace crumble {
+namespace crumble::rigidstress {
 
 Quaternion random_orientation(std::uint64_t seed, std::uint32_t number) {
   const auto q = random_normals(seed, Purpose::orientation, number, 0);
@@ -189,4 +189,4 @@ ShearResult shear(const LoadedBody& body, const ShearChoice& choice) {
   return result;
 }
 
-}  // namespace crumble
+}  // namespace crumble::rigidstress

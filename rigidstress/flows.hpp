@@ -12,7 +12,7 @@
 #include "common/hydro/turning_body.hpp"
 #include "common/rigid/response.hpp"
 
-namespace crumble {
+namespace crumble::rigidstress {
 
 // Uniform over all orientations, a pure function of its arguments.
 Quaternion random_orientation(std::uint64_t seed, std::uint32_t number);
@@ -84,4 +84,4 @@ ShearResult shear(const LoadedBody& body, const ShearChoice& choice);
 Orbit follow(const LoadedBody& body, const Quaternion& start, const std::vector<double>& times,
              const std::function<Eigen::Matrix3d(double)>& gradient_at, double tolerance = 1e-8);
 
-}  // namespace crumble
+}  // namespace crumble::rigidstress

@@ -14,7 +14,7 @@
 
 #include "common/io/errors.hpp"
 
-namespace crumble {
+namespace crumble::rigidstress {
 
 namespace {
 
@@ -198,4 +198,4 @@ HistoryResult follow_history(const LoadedBody& body, const GradientHistory& hist
   return result;
 }
 
-}  // namespace crumble
+}  // namespace crumble::rigidstress

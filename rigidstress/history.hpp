@@ -6,7 +6,7 @@
 
 #include "rigidstress/flows.hpp"
 
-namespace crumble {
+namespace crumble::rigidstress {
 
 // Gradients at instants, in between linear.
 class GradientHistory {
@@ -36,4 +36,4 @@ struct HistoryResult {
 HistoryResult follow_history(const LoadedBody& body, const GradientHistory& history,
                              const std::vector<Quaternion>& starts, double tolerance = 1e-8);
 
-}  // namespace crumble
+}  // namespace crumble::rigidstress

@@ -10,7 +10,7 @@
 #include "common/hydro/matrix_free.hpp"
 #include "common/hydro/multipole.hpp"
 
-namespace crumble {
+namespace crumble::rigidstress {
 
 namespace {
 
@@ -258,4 +258,4 @@ Judged judged_response(const Network& network, const Vector3& centre, const Hydr
   }
 }
 
-}  // namespace crumble
+}  // namespace crumble::rigidstress

@@ -8,7 +8,7 @@
 #include "common/hydro/model.hpp"
 #include "common/rigid/response.hpp"
 
-namespace crumble {
+namespace crumble::rigidstress {
 
 enum class Method { automatic, fts, fts_lubrication, fts_relative_lubrication, multipole };
 
@@ -46,4 +46,4 @@ Judged judged_response(const Network& network, const Vector3& centre, const Hydr
 // bear at least half as much, each in its own worst orientation. The largest alone may stand still by chance.
 double tension_change(const Eigen::MatrixXd& before, const Eigen::MatrixXd& after);
 
-}  // namespace crumble
+}  // namespace crumble::rigidstress

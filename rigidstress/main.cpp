@@ -16,6 +16,7 @@
 #include "rigidstress/stress_file.hpp"
 
 using namespace crumble;
+using namespace crumble::rigidstress;
 
 namespace {
 

@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-namespace crumble {
+namespace crumble::rigidstress {
 
 namespace {
 
@@ -40,4 +40,4 @@ MobilityNumbers mobility_numbers(const Eigen::Matrix<double, 6, 6>& drag) {
   return n;
 }
 
-}  // namespace crumble
+}  // namespace crumble::rigidstress

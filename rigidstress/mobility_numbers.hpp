@@ -3,7 +3,7 @@
 
 #include <Eigen/Dense>
 
-namespace crumble {
+namespace crumble::rigidstress {
 
 struct MobilityNumbers {
   Eigen::Vector3d drag;            // eigenvalues of force against velocity without rotation, ascending
@@ -16,4 +16,4 @@ struct MobilityNumbers {
 // its trace least (Kim & Karrila 1991, 5.2; what diffusion over long times sees).
 MobilityNumbers mobility_numbers(const Eigen::Matrix<double, 6, 6>& drag);
 
-}  // namespace crumble
+}  // namespace crumble::rigidstress

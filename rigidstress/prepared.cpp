@@ -9,7 +9,7 @@
 #include "common/contact/small_contact.hpp"
 #include "common/io/errors.hpp"
 
-namespace crumble {
+namespace crumble::rigidstress {
 
 std::vector<Vector3> touching_positions(const Particles& particles, const Frame& frame) {
   double stretch = 0;
@@ -93,4 +93,4 @@ std::vector<double> pull_off_of(const Prepared& p, const Body& body, const Mater
   return force;
 }
 
-}  // namespace crumble
+}  // namespace crumble::rigidstress

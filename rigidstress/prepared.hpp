@@ -8,7 +8,7 @@
 #include "common/agglomerate/closing.hpp"
 #include "common/rigid/network.hpp"
 
-namespace crumble {
+namespace crumble::rigidstress {
 
 struct Prepared {
   Particles particles;
@@ -48,4 +48,4 @@ Network network_of(const Prepared& prepared, const Body& body, const JointChoice
 Vector3 centre_of(const Prepared& prepared, const Body& body);  // centre of mass of `position`, m
 std::vector<double> pull_off_of(const Prepared& prepared, const Body& body, const Material& material);  // N
 
-}  // namespace crumble
+}  // namespace crumble::rigidstress

@@ -7,7 +7,7 @@
 #include "common/agglomerate/morphology.hpp"
 #include "rigidstress/mobility_numbers.hpp"
 
-namespace crumble {
+namespace crumble::rigidstress {
 
 namespace {
 
@@ -223,4 +223,4 @@ std::string result_text(const Analysis& a, const StressScene& scene) {
   return text;
 }
 
-}  // namespace crumble
+}  // namespace crumble::rigidstress

@@ -7,7 +7,7 @@
 #include "common/io/report.hpp"
 #include "rigidstress/analysis.hpp"
 
-namespace crumble {
+namespace crumble::rigidstress {
 
 void fill_report(Report& report, const Analysis& analysis, const StressScene& scene);
 std::string result_text(const Analysis& analysis, const StressScene& scene);
@@ -15,4 +15,4 @@ std::string result_text(const Analysis& analysis, const StressScene& scene);
 // What closing did to the agglomerate, a line each.
 std::vector<std::string> describe(const Prepared& prepared);
 
-}  // namespace crumble
+}  // namespace crumble::rigidstress

@@ -9,7 +9,7 @@
 #include "common/io/plausible.hpp"
 #include "common/io/shared_parameters.hpp"
 
-namespace crumble {
+namespace crumble::rigidstress {
 
 namespace {
 
@@ -186,4 +186,4 @@ std::string response_key(const Scene& scene) {
   return key;
 }
 
-}  // namespace crumble
+}  // namespace crumble::rigidstress

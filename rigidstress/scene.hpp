@@ -11,7 +11,7 @@
 #include "rigidstress/history.hpp"
 #include "rigidstress/hydrodynamic_choice.hpp"
 
-namespace crumble {
+namespace crumble::rigidstress {
 
 const ParameterTable& stress_parameters();
 
@@ -42,4 +42,4 @@ std::vector<ReadFile> history_files(const Scene& scene);
 // and run.
 std::string response_key(const Scene& scene);
 
-}  // namespace crumble
+}  // namespace crumble::rigidstress

@@ -4,7 +4,7 @@
 
 #include "common/io/agglomerate_reader.hpp"
 
-namespace crumble {
+namespace crumble::rigidstress {
 
 namespace {
 
@@ -261,4 +261,4 @@ std::optional<Analysis> restore(const std::filesystem::path& path, const Scene& 
   return a;
 }
 
-}  // namespace crumble
+}  // namespace crumble::rigidstress

@@ -7,7 +7,7 @@
 #include "common/io/agglomerate_writer.hpp"
 #include "rigidstress/analysis.hpp"
 
-namespace crumble {
+namespace crumble::rigidstress {
 
 // Closed agglomerate, response and flows. Everything but a history is at a viscosity of 1 Pa s and a shear rate of 1/s.
 void write_stress(AgglomerateWriter& writer, const Analysis& analysis, const StressScene& scene);
@@ -15,4 +15,4 @@ void write_stress(AgglomerateWriter& writer, const Analysis& analysis, const Str
 // The analysis without flows, if `file` is a stress file whose response was computed with what this scene asks for.
 std::optional<Analysis> restore(const std::filesystem::path& file, const Scene& text, const StressScene& scene);
 
-}  // namespace crumble
+}  // namespace crumble::rigidstress

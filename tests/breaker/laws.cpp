@@ -10,7 +10,7 @@
 #include "common/hydro/rigid_body.hpp"
 #include "samples.hpp"
 
-namespace crumble {
+namespace crumble::breaker {
 namespace {
 
 using namespace testing;
@@ -279,4 +279,4 @@ TEST(Protocol, ThePapersGivesTheStrainOfTheRamp) {
 }
 
 }  // namespace
-}  // namespace crumble
+}  // namespace crumble::breaker

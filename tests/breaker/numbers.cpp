@@ -6,7 +6,7 @@
 #include "breaker/run.hpp"
 #include "samples.hpp"
 
-namespace crumble {
+namespace crumble::breaker {
 namespace {
 
 using namespace testing;
@@ -112,4 +112,4 @@ TEST(BreakupRun, ThatHasEndedHasEndedAfterARestart) {
 }
 
 }  // namespace
-}  // namespace crumble
+}  // namespace crumble::breaker

@@ -6,7 +6,7 @@
 #include "breaker/implicit_step.hpp"
 #include "samples.hpp"
 
-namespace crumble {
+namespace crumble::breaker {
 namespace {
 
 using namespace testing;
@@ -168,4 +168,4 @@ TEST(Pair, IsLostAtPullOffAndMadeAgainAtTouch) {
 }
 
 }  // namespace
-}  // namespace crumble
+}  // namespace crumble::breaker

@@ -7,7 +7,7 @@
 #include "tests/breaker/samples.hpp"
 #include "tests/temporary_folder.hpp"
 
-namespace crumble {
+namespace crumble::breaker {
 namespace {
 
 using namespace testing;
@@ -69,4 +69,4 @@ INSTANTIATE_TEST_SUITE_P(Integrators, BreakupRestart, ::testing::Bool(),
                          [](const auto& made_of) { return made_of.param ? "explicit_euler" : "implicit"; });
 
 }  // namespace
-}  // namespace crumble
+}  // namespace crumble::breaker

@@ -10,7 +10,7 @@
 #include "common/agglomerate/closing.hpp"
 #include "common/agglomerate/fragments.hpp"
 
-namespace crumble::testing {
+namespace crumble::breaker::testing {
 
 inline constexpr double a = 1e-7;  // m
 
@@ -113,4 +113,4 @@ inline Outcome follow(Integrator& run, const Protocol& protocol, const std::vect
   return course;
 }
 
-}  // namespace crumble::testing
+}  // namespace crumble::breaker::testing

@@ -18,7 +18,8 @@
 #include "tests/seeds.hpp"
 
 using namespace crumble;
-using namespace crumble::samples;
+using namespace crumble::dryer;
+using namespace crumble::dryer::samples;
 
 // Statistical tests compare a mean with its expectation within 5 of its standard errors, 6e-7 by chance, if nothing
 // else is said; room for a finite step comes on top.

@@ -10,6 +10,7 @@
 #include "common/numerics/noise.hpp"
 
 using namespace crumble;
+using namespace crumble::dryer;
 
 namespace {
 

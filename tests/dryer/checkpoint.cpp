@@ -9,6 +9,7 @@
 #include "tests/temporary_folder.hpp"
 
 using namespace crumble;
+using namespace crumble::dryer;
 using crumble::test::Folder;
 
 namespace {

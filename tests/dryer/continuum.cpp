@@ -10,6 +10,7 @@
 #include <unsupported/Eigen/MatrixFunctions>
 
 using namespace crumble;
+using namespace crumble::dryer;
 
 namespace {
 

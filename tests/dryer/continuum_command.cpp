@@ -12,6 +12,7 @@
 #include "tests/temporary_folder.hpp"
 
 using namespace crumble;
+using namespace crumble::dryer;
 
 namespace {
 

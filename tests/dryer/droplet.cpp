@@ -7,6 +7,7 @@
 #include "dryer/surface_pull.hpp"
 
 using namespace crumble;
+using namespace crumble::dryer;
 
 namespace {
 

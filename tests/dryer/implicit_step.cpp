@@ -9,7 +9,8 @@
 #include "tests/dryer/samples.hpp"
 
 using namespace crumble;
-using namespace crumble::samples;
+using namespace crumble::dryer;
+using namespace crumble::dryer::samples;
 
 namespace {
 

@@ -12,6 +12,7 @@
 #include "dryer/water_viscosity.hpp"
 
 using namespace crumble;
+using namespace crumble::dryer;
 
 namespace {
 

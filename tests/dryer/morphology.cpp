@@ -12,6 +12,7 @@
 #include "tests/seeds.hpp"
 
 using namespace crumble;
+using namespace crumble::dryer;
 
 namespace {
 

@@ -14,6 +14,7 @@
 #include "tests/seeds.hpp"
 
 using namespace crumble;
+using namespace crumble::dryer;
 
 namespace {
 

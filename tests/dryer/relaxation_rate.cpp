@@ -11,6 +11,7 @@
 #include "dryer/drag.hpp"
 
 using namespace crumble;
+using namespace crumble::dryer;
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include "dryer/model.hpp"
 #include "dryer/start.hpp"
 
-namespace crumble::samples {
+namespace crumble::dryer::samples {
 
 // Table 2, first row.
 inline DryingModel hollow() {
@@ -31,4 +31,4 @@ inline Agglomerate start(int number, double droplet_radius, std::uint64_t seed) 
   return random_suspension(std::vector<double>(number, 10e-9), 1300, droplet_radius, seed);
 }
 
-}  // namespace crumble::samples
+}  // namespace crumble::dryer::samples

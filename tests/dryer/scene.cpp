@@ -6,6 +6,7 @@
 #include "dryer/regime.hpp"
 
 using namespace crumble;
+using namespace crumble::dryer;
 
 namespace {
 

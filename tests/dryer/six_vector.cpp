@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 using namespace crumble;
+using namespace crumble::dryer;
 
 TEST(SixVector, a_register_of_vectors_comes_from_memory_and_goes_back_to_the_places_that_are_told) {
   alignas(64) SixVector in[lanes], out[lanes];

@@ -12,7 +12,8 @@
 #include "tests/seeds.hpp"
 
 using namespace crumble;
-using namespace crumble::samples;
+using namespace crumble::dryer;
+using namespace crumble::dryer::samples;
 
 namespace {
 

@@ -6,6 +6,7 @@
 #include "tests/seeds.hpp"
 
 using namespace crumble;
+using namespace crumble::dryer;
 
 namespace {
 

@@ -6,6 +6,7 @@
 #include "dryer/water_viscosity.hpp"
 
 using namespace crumble;
+using namespace crumble::dryer;
 
 namespace {
 

@@ -12,6 +12,7 @@
 #include "tests/hydro/clusters.hpp"
 
 using namespace crumble;
+using namespace crumble::rigidstress;
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include "rigidstress/mobility_numbers.hpp"
 #include "samples.hpp"
 
-namespace crumble {
+namespace crumble::rigidstress {
 namespace {
 
 using std::numbers::pi;
@@ -211,4 +211,4 @@ TEST(MobilityNumbers, HydrodynamicRadiusIsThatOfTheCentreOfMobility) {
 }
 
 }  // namespace
-}  // namespace crumble
+}  // namespace crumble::rigidstress

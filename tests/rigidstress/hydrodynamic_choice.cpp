@@ -5,7 +5,7 @@
 
 #include "samples.hpp"
 
-namespace crumble {
+namespace crumble::rigidstress {
 namespace {
 
 const Say silent = [](const std::string&) {};
@@ -100,4 +100,4 @@ TEST(HydrodynamicChoice, FewerOrdersWithoutAnEstimate) {
 }
 
 }  // namespace
-}  // namespace crumble
+}  // namespace crumble::rigidstress
