@@ -250,7 +250,9 @@ void BondBlock::move(std::size_t b, const MotionBlock& motion, Extremes& extreme
   write_loads(b, F - tension * n, -(M + a_i * turn), M - a_j * turn);
   holds.store(&holds_[b]);
   extremes.holding = min(extremes.holding, holds);
-  extremes.deepest = max(extremes.deepest, -gap * constant(inverse_radius));
+  // Lanes beyond the last bond may hold one that was removed.
+  const Lane overlap = where_greater(static_cast<float>(count_ - b), Lane::iota(), -gap * constant(inverse_radius), 0);
+  extremes.deepest = max(extremes.deepest, overlap);
 }
 
 // Room for the bonds of a while; by themselves arrays double.

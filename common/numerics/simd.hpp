@@ -50,6 +50,10 @@ class Simd {
     hn::StoreU(at[0], Tag(), to);
     if constexpr (registers == 2) hn::StoreU(at[1], Tag(), to + in_register);
   }
+  // 0, 1, 2, ...
+  static HWY_INLINE Simd iota() {
+    return each([](std::size_t k) { return hn::Iota(Tag(), static_cast<T>(k * in_register)); });
+  }
   T operator[](std::size_t k) const { return hn::ExtractLane(at[k / in_register], k % in_register); }
 
   Simd& operator+=(const Simd& other) { return *this = *this + other; }

@@ -132,6 +132,22 @@ TEST(BondBlock, a_bond_beyond_its_reach_is_named_and_pulls_no_more) {
   EXPECT_EQ(block.load_on(1)[0], 0);
 }
 
+TEST(BondBlock, a_bond_that_was_removed_counts_no_more_as_an_overlap) {
+  const BondLaw law(ContactChoice{}, Material{}, a, a);
+  BondBlock block;
+  MotionBlock motion;
+  motion.resize(3);
+  block.clear(3);
+  for (const std::int32_t p : {0, 1})
+    block.add(make_bond(law, p, p + 1, Vector3(2 * a, 0, 0), a, a, 0), p, p + 1, law, a, a, law.lost_gap());
+  motion.position[1].at[0] = 2 * a;
+  motion.position[2].at[0] = 4 * a;
+  block.remove(1);
+  motion.position[2].at[0] = 3 * a;  // deep in the second one, which no bond tells of
+  block.advance(motion);
+  EXPECT_NEAR(block.deepest_overlap(), 0, 1e-6);
+}
+
 TEST(Brownian, mean_square_displacement_is_6_D_t) {
   const int number = 300;
   Agglomerate s = lonely(number);

@@ -133,8 +133,6 @@ HardCase noisy(HardCase of, double thermal_energy = kT) {
   of.deepest = std::max(of.deepest, thermal_energy > 100 * kT ? 1.1 : 0.3);
   // The farthest of eight, of 21 starts 3.4 +- 0.9, at most 5.7.
   if (thermal_energy > 100 * kT) of.thrown = 10;
-  // Known: with other seeds spheres a tenth as large overlap by 0.7 and 1.8 in two of 10 starts, after a long step.
-  // That is an error of the integrator, so the bound stays.
   return of;
 }
 
