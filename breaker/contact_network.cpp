@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "common/agglomerate/bond.hpp"
+#include "common/agglomerate/network.hpp"
 
 namespace crumble::breaker {
 
@@ -45,46 +45,34 @@ void ContactNetwork::tell_limits(const Contact& bond, double stress) {
 bool ContactNetwork::advance(const VectorXd& q, double length, double stress) {
   bool lost = false;
   for (Contact& bond : frame_.contacts) {
-    const BondLaw& law = laws_(bond.i, bond.j);
     const auto q_i = q.segment<6>(6 * bond.i), q_j = q.segment<6>(6 * bond.j);
-    crumble::advance(bond, law,
-                     {frame_.position[bond.j] - frame_.position[bond.i], q_j.head<3>() - q_i.head<3>(),
-                      q_i.tail<3>() / length, q_j.tail<3>() / length, radius_[bond.i], radius_[bond.j]});
-    if (bond.gap > law.lost_gap()) {
+    const BondMotion motion{frame_.position[bond.j] - frame_.position[bond.i],
+                            q_j.head<3>() - q_i.head<3>(),
+                            q_i.tail<3>() / length,
+                            q_j.tail<3>() / length,
+                            radius_[bond.i],
+                            radius_[bond.j]};
+    if (advance_or_lose(bond, laws_(bond.i, bond.j), motion, open_)) {
       events_.push_back({frame_.time, stress, EventKind::rupture, bond.i, bond.j, {}});
       told_.erase({bond.i, bond.j});
-      open_.open({bond.i, bond.j});
-      bond.born = -1;  // marks it for removal
       lost = true;
     } else {
       tell_limits(bond, stress);
     }
   }
-  if (lost) std::erase_if(frame_.contacts, [](const Contact& bond) { return bond.born < 0; });
+  if (lost) drop_lost(frame_.contacts);
   open_.update(frame_.position, radius_, frame_.contacts);
   const bool made = make_contacts(stress);
   return made || lost;
 }
 
 bool ContactNetwork::make_contacts(double stress) {
-  std::vector<Pair> made;
-  for (const Pair& pair : open_.pairs()) {
-    const double reach = radius_[pair.i] + radius_[pair.j];
-    if ((frame_.position[pair.j] - frame_.position[pair.i]).squaredNorm() <= reach * reach) made.push_back(pair);
-  }
-  for (const Pair& pair : made) {
-    open_.close(pair);
-    const Contact bond =
-        make_bond(laws_(pair.i, pair.j), pair.i, pair.j, frame_.position[pair.j] - frame_.position[pair.i],
-                  radius_[pair.i], radius_[pair.j], frame_.step);
-    const auto place =
-        std::lower_bound(frame_.contacts.begin(), frame_.contacts.end(), pair, [](const Contact& c, const Pair& p) {
-          return Pair{c.i, c.j} < p;
-        });
-    frame_.contacts.insert(place, bond);
+  const std::vector<Pair> touch = touching(open_, frame_.position, radius_);
+  for (const Pair& pair : touch) {
+    make_bond(pair, laws_, radius_, frame_, open_);
     events_.push_back({frame_.time, stress, EventKind::made, pair.i, pair.j, {}});
   }
-  return !made.empty();
+  return !touch.empty();
 }
 
 double ContactNetwork::touch_fraction(const VectorXd& q, double precision) const {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "common/agglomerate/bond.hpp"
+#include "common/agglomerate/network.hpp"
 
 namespace crumble::dryer {
 
@@ -28,48 +28,33 @@ Integrator::Integrator(const DryingModel& model, Agglomerate& state, double skin
 void Integrator::advance_bond(Contact& bond, const Motion& i, const Motion& j, bool& lost) {
   const Frame& f = state_.state;
   const double a_i = state_.particles.radius[bond.i], a_j = state_.particles.radius[bond.j];
-  const BondLaw& law = laws_(bond.i, bond.j);
-  advance(bond, law,
-          {f.position[bond.j] - f.position[bond.i], j.displacement - i.displacement, i.rotation, j.rotation, a_i, a_j});
+  const BondMotion motion{
+      f.position[bond.j] - f.position[bond.i], j.displacement - i.displacement, i.rotation, j.rotation, a_i, a_j};
+  const bool loses = advance_or_lose(bond, laws_(bond.i, bond.j), motion, open_);
   statistics_.largest_overlap = std::max(statistics_.largest_overlap, -bond.gap / pair_radius(a_i, a_j));
-  if (bond.gap <= law.lost_gap()) return;
-  bond.born = -1;  // marks it for removal
-  open_.open({bond.i, bond.j});
-  ++statistics_.contacts_lost;
-  lost = true;
+  statistics_.contacts_lost += loses;
+  lost = lost || loses;
 }
 
 bool Integrator::update_network(bool lost) {
   Frame& f = state_.state;
   const auto& radius = state_.particles.radius;
-  if (lost) std::erase_if(f.contacts, [](const Contact& bond) { return bond.born < 0; });
+  if (lost) drop_lost(f.contacts);
   open_.update(f.position, radius, f.contacts);
-  std::vector<Pair> made;
-  for (const Pair& pair : open_.pairs()) {
-    const double reach = radius[pair.i] + radius[pair.j];
-    if ((f.position[pair.j] - f.position[pair.i]).squaredNorm() <= reach * reach &&
-        (activity_.is_active(pair.i) || activity_.is_active(pair.j)))
-      made.push_back(pair);
-  }
-  for (const Pair& pair : made) {
+  bool made = false;
+  for (const Pair& pair : touching(open_, f.position, radius)) {
+    if (!activity_.is_active(pair.i) && !activity_.is_active(pair.j)) continue;
     bond(pair);
     ++statistics_.contacts_made;
+    made = true;
   }
-  return lost || !made.empty();
+  return lost || made;
 }
 
 Contact& Integrator::bond(const Pair& pair) {
-  Frame& f = state_.state;
-  const auto& radius = state_.particles.radius;
-  open_.close(pair);
   activity_.wake(pair.i);
   activity_.wake(pair.j);
-  const auto place = std::lower_bound(f.contacts.begin(), f.contacts.end(), pair, [](const Contact& c, const Pair& q) {
-    return Pair{c.i, c.j} < q;
-  });
-  return *f.contacts.insert(
-      place, make_bond(laws_(pair.i, pair.j), pair.i, pair.j, f.position[pair.j] - f.position[pair.i], radius[pair.i],
-                       radius[pair.j], f.step));
+  return make_bond(pair, laws_, state_.particles.radius, state_.state, open_);
 }
 
 void Integrator::fields(SavedFields& f) {
