@@ -5,38 +5,22 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <fstream>
-#include <optional>
 #include <sstream>
 #include <string_view>
 
 #include "common/io/errors.hpp"
+#include "common/text/csv.hpp"
 
 namespace crumble::rigidstress {
 
 namespace {
 
-std::string_view trimmed(std::string_view s) {
-  const auto first = s.find_first_not_of(" \t\r\""), last = s.find_last_not_of(" \t\r\"");
-  return first == std::string_view::npos ? std::string_view{} : s.substr(first, last - first + 1);
-}
-
-std::vector<std::string_view> fields(std::string_view line) {
-  std::vector<std::string_view> result;
-  for (std::size_t from = 0;;) {
-    const auto comma = line.find(',', from);
-    result.push_back(trimmed(line.substr(from, comma - from)));
-    if (comma == std::string_view::npos) return result;
-    from = comma + 1;
-  }
-}
-
 std::string unit_of(std::string_view name) {
   const auto open = name.find('['), close = name.find(']');
   if (open == std::string_view::npos || close == std::string_view::npos || close < open) return "";
-  return std::string(trimmed(name.substr(open + 1, close - open - 1)));
+  return std::string(text::trimmed(name.substr(open + 1, close - open - 1)));
 }
 
 // What a column is by its name: 0 the time, 1 to 9 the components of the gradient, row by row; -1 no such name.
@@ -58,7 +42,7 @@ int column_named(std::string_view name) {
 
 using Columns = std::array<std::size_t, 10>;  // where the time and the components stand
 
-Columns read_header(const std::vector<std::string_view>& names, const std::string& where) {
+Columns read_header(const text::Words& names, const std::string& where) {
   if (names.size() != 10)
     throw InputError(
         fmt::format("{}: the header has {} columns, ten are needed: time [s] and nine components of the "
@@ -97,14 +81,9 @@ struct Row {
   Eigen::Matrix3d gradient;
 };
 
-Row parse_row(const std::vector<std::string_view>& texts, const Columns& columns, const std::string& where) {
-  if (texts.size() != 10) throw InputError(fmt::format("{}: {} columns, ten are needed", where, texts.size()));
+Row parse_row(const text::Csv& csv, const Columns& columns, const std::string& where) {
   double value[10];
-  for (std::size_t k = 0; k < 10; ++k) {
-    const auto [end, error] = std::from_chars(texts[k].data(), texts[k].data() + texts[k].size(), value[k]);
-    if (error != std::errc{} || end != texts[k].data() + texts[k].size() || !std::isfinite(value[k]))
-      throw InputError(fmt::format("{}: column {}: '{}' is not a finite number", where, k + 1, texts[k]));
-  }
+  for (std::size_t k = 0; k < 10; ++k) value[k] = csv.number(k);
   Row row{value[columns[0]], {}};
   for (int k = 0; k < 9; ++k) row.gradient(k / 3, k % 3) = value[columns[static_cast<std::size_t>(k) + 1]];
   const double trace = row.gradient.trace(), size = row.gradient.norm();
@@ -127,27 +106,20 @@ GradientHistory GradientHistory::read(const std::string& file, double largest_st
   return parse(text.str(), file, largest_step);
 }
 
-GradientHistory GradientHistory::parse(const std::string& text, const std::string& name, double largest_step) {
+GradientHistory GradientHistory::parse(const std::string& text, const std::string& name, double largest_step) try {
   GradientHistory history;
   std::vector<int> line_of;
-  std::istringstream in(text);
-  std::string line;
-  std::optional<Columns> columns;
-  for (int number = 1; std::getline(in, line); ++number) {
-    const auto content = trimmed(line);
-    if (content.empty() || content[0] == '#') continue;
-    const std::string where = fmt::format("{}:{}", name, number);
-    if (!columns) {
-      columns = read_header(fields(line), where);
-      continue;
-    }
-    const Row row = parse_row(fields(line), *columns, where);
+  text::Csv csv(text, name, "t [s], dux/dx [1/s], dux/dy [1/s], ... duz/dz [1/s]");
+  const auto where = [&] { return fmt::format("{}:{}", name, csv.lines().number()); };
+  const Columns columns = read_header(csv.names(), where());
+  while (csv.next()) {
+    const Row row = parse_row(csv, columns, where());
     if (!history.time_.empty() && row.time <= history.time_.back())
-      throw InputError(fmt::format("{}: time {:g} s does not follow {:g} s of line {}: times must increase", where,
+      throw InputError(fmt::format("{}: time {:g} s does not follow {:g} s of line {}: times must increase", where(),
                                    row.time, history.time_.back(), line_of.back()));
     history.time_.push_back(row.time);
     history.gradient_.push_back(row.gradient);
-    line_of.push_back(number);
+    line_of.push_back(csv.lines().number());
   }
   if (history.time_.size() < 2) throw InputError(name + ": a history needs a header and at least two instants");
 
@@ -168,6 +140,8 @@ GradientHistory GradientHistory::parse(const std::string& text, const std::strin
                                    name, line_of[k + 1], intervals[k], line_of[k], median));
   }
   return history;
+} catch (const text::TextError& error) {
+  throw InputError(error.what());
 }
 
 Eigen::Matrix3d GradientHistory::operator()(double time) const {

@@ -1,103 +1,22 @@
 #include "common/agglomerate/point_list.hpp"
 
-#include <algorithm>
-#include <cctype>
 #include <charconv>
-#include <cmath>
-#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <optional>
 #include <system_error>
 
+#include "common/text/csv.hpp"
+
 namespace crumble {
+
+using namespace text;
+
 namespace {
 
-using Words = std::vector<std::string_view>;
-
-std::string_view trimmed(std::string_view s) {
-  const auto blank = [](char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; };
-  while (!s.empty() && blank(s.front())) s.remove_prefix(1);
-  while (!s.empty() && blank(s.back())) s.remove_suffix(1);
-  return s;
-}
-
-std::string lower(std::string_view s) {
-  std::string out(s);
-  std::transform(out.begin(), out.end(), out.begin(), [](unsigned char c) { return std::tolower(c); });
-  return out;
-}
-
-std::string quoted(std::string_view s) {
-  constexpr std::size_t longest = 40;
-  return "'" + std::string(s.substr(0, longest)) + (s.size() > longest ? "...'" : "'");
-}
-
-Words split(std::string_view s, char separator) {
-  Words words;
-  for (std::size_t end; (end = s.find(separator)) != s.npos; s.remove_prefix(end + 1)) {
-    words.push_back(trimmed(s.substr(0, end)));
-  }
-  words.push_back(trimmed(s));
-  return words;
-}
-
-Words split_blank(std::string_view s) {
-  Words words;
-  for (s = trimmed(s); !s.empty(); s = trimmed(s)) {
-    std::size_t end = 0;
-    while (end < s.size() && std::isspace(static_cast<unsigned char>(s[end])) == 0) ++end;
-    words.push_back(s.substr(0, end));
-    s.remove_prefix(end);
-  }
-  return words;
-}
-
-// Lines with their numbers, for messages.
-class Lines {
- public:
-  Lines(std::string_view text, std::string file) : rest_(text), file_(std::move(file)) {
-    if (rest_.starts_with("\xEF\xBB\xBF")) rest_.remove_prefix(3);  // byte order mark of spreadsheet programs
-  }
-
-  std::optional<std::string_view> next() {
-    if (rest_.empty()) return std::nullopt;
-    ++number_;
-    const std::size_t end = rest_.find('\n');
-    const std::string_view line = rest_.substr(0, end);
-    rest_.remove_prefix(end == rest_.npos ? rest_.size() : end + 1);
-    return line;
-  }
-
-  int number() const { return number_; }
-  const std::string& file() const { return file_; }
-  bool only_blank_left() const { return trimmed(rest_).empty(); }
-
-  PointListError error(const std::string& what) const {
-    return PointListError(file_ + ":" + std::to_string(std::max(number_, 1)) + ": " + what);
-  }
-
- private:
-  std::string_view rest_;
-  std::string file_;
-  int number_ = 0;
-};
-
-double number(const Lines& lines, std::string_view word, const std::string& column) {
-  std::string_view digits = word;
-  if (digits.starts_with('+')) digits.remove_prefix(1);
-  double value = 0;
-  const auto [end, problem] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (problem != std::errc() || end != digits.data() + digits.size()) {
-    throw lines.error(column + ": expected a number, found " + quoted(word));
-  }
-  if (!std::isfinite(value)) throw lines.error(column + ": expected a finite number, found " + quoted(word));
-  return value;
-}
-
 double positive(const Lines& lines, std::string_view word, const std::string& column) {
-  const double value = number(lines, word, column);
+  const double value = lines.number_of(word, column);
   if (!(value > 0)) throw lines.error(column + ": expected a radius > 0, found " + quoted(word));
   return value;
 }
@@ -108,15 +27,18 @@ struct Columns {
   std::optional<std::size_t> radius;
 };
 
-void take(PointList& list, const Lines& lines, const Words& words, const Columns& c) {
+// word(column) of a line.
+template <class Word>
+void take(PointList& list, const Lines& lines, Word word, const Columns& c) {
   list.position.push_back(
-      {number(lines, words[c.x], "x"), number(lines, words[c.y], "y"), number(lines, words[c.z], "z")});
-  if (c.radius) list.radius.push_back(positive(lines, words[*c.radius], "radius"));
+      {lines.number_of(word(c.x), "x"), lines.number_of(word(c.y), "y"), lines.number_of(word(c.z), "z")});
+  if (c.radius) list.radius.push_back(positive(lines, word(*c.radius), "radius"));
   list.line.push_back(lines.number());
 }
 
-Columns csv_header(const Lines& lines, std::string_view line) {
-  const Words names = split(line, ',');
+Columns csv_columns(const Csv& csv) {
+  const Lines& lines = csv.lines();
+  const Words& names = csv.names();
   std::optional<std::size_t> x, y, z, radius;
   for (std::size_t k = 0; k < names.size(); ++k) {
     const std::string name = lower(names[k]);
@@ -125,10 +47,8 @@ Columns csv_header(const Lines& lines, std::string_view line) {
                                          : name == "z"      ? &z
                                          : name == "radius" ? &radius
                                                             : nullptr;
-    if (column == nullptr) {
-      throw lines.error("expected a header of the columns x,y,z[,radius], found the column " + quoted(names[k]) +
-                        (names.size() == 1 && line.find(';') != line.npos ? " (separate columns by commas)" : ""));
-    }
+    if (column == nullptr)
+      throw lines.error("expected a header of the columns x,y,z[,radius], found the column " + quoted(names[k]));
     if (*column) throw lines.error("the column " + name + " stands twice in the header");
     *column = k;
   }
@@ -202,7 +122,7 @@ PointList xyz_frame(Lines& lines, std::size_t count) {
       throw lines.error("expected " + std::to_string(count) + " spheres, found the end of the file after " +
                         std::to_string(k));
     }
-    const Words words = split_blank(*line);
+    const Words words = split_at_blanks(*line);
     const bool declared = columns.width > 0;
     if (declared ? words.size() != columns.width : words.size() < 4) {
       throw lines.error("expected " +
@@ -210,7 +130,8 @@ PointList xyz_frame(Lines& lines, std::size_t count) {
                                   : std::string("a label and x y z")) +
                         ", found " + quoted(trimmed(*line)));
     }
-    take(list, lines, words, columns);
+    take(
+        list, lines, [&](std::size_t column) { return words[column]; }, columns);
   }
   return list;
 }
@@ -218,25 +139,13 @@ PointList xyz_frame(Lines& lines, std::size_t count) {
 }  // namespace
 
 PointList parse_csv(std::string_view text, const std::string& file) {
-  Lines lines(text, file);
+  Csv csv(text, file, "x,y,z[,radius]");
+  const Columns columns = csv_columns(csv);
   PointList list;
-  std::optional<Columns> columns;
-  while (const auto line = lines.next()) {
-    const std::string_view content = trimmed(line->substr(0, line->find('#')));
-    if (content.empty()) continue;
-    if (!columns) {
-      columns = csv_header(lines, content);
-      continue;
-    }
-    const Words words = split(content, ',');
-    if (words.size() != columns->width) {
-      throw lines.error("expected " + std::to_string(columns->width) + " values as in the header, found " +
-                        std::to_string(words.size()));
-    }
-    take(list, lines, words, *columns);
-  }
-  if (!columns) throw lines.error("expected a header x,y,z[,radius], found no text");
-  if (list.position.empty()) throw lines.error("expected at least one sphere below the header, found none");
+  while (csv.next())
+    take(
+        list, csv.lines(), [&](std::size_t column) { return csv[column]; }, columns);
+  if (list.position.empty()) throw csv.lines().error("expected at least one sphere below the header, found none");
   list.file = file;
   return list;
 }

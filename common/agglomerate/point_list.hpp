@@ -1,23 +1,21 @@
 // Spheres read from a text file: CSV, XYZ or extended XYZ.
 #pragma once
 
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "common/agglomerate/agglomerate.hpp"
+#include "common/text/lines.hpp"
 
 namespace crumble {
 
-// What is wrong with the text, beginning with file and line: "points.csv:14: y: expected a number, found '1,5'".
-struct PointListError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
+// What is wrong with the text, beginning with file and line.
+using PointListError = text::TextError;
 
 // The file cannot be read at all.
 struct PointListOpenError : PointListError {
-  using PointListError::PointListError;
+  using text::TextError::TextError;
 };
 
 struct PointList {

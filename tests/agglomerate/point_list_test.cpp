@@ -26,6 +26,13 @@ TEST(PointList, CsvMayHaveCommentsBlankLinesAnyOrderAndForeignLineEnds) {
   EXPECT_EQ(p.line, (std::vector<int>{4, 6}));
 }
 
+TEST(PointList, CsvMayHaveQuotesAndEmptyRowsAsSpreadsheetsWriteThem) {
+  const PointList p = parse_csv("\"x\",\"y\",\"z\"\n\"1\",2,\"3\"\n,,\n4,5,6\n", "points");
+  ASSERT_EQ(p.position.size(), 2u);
+  EXPECT_EQ(p.position[0], Vector3(1, 2, 3));
+  EXPECT_EQ(p.line, (std::vector<int>{2, 4}));
+}
+
 TEST(PointList, CsvWithoutRadiiHasNone) {
   const PointList p = parse_csv("x,y,z\n0,0,0", "points");
   EXPECT_EQ(p.position.size(), 1u);
@@ -66,8 +73,15 @@ TEST(PointList, EveryMalformedTextHasItsOwnMessageWithFileAndLine) {
       {parse_csv, "# nothing\n\n", "points:2: expected a header x,y,z[,radius], found no text"},
       {parse_csv, "1,2,3\n", "points:1: expected a header of the columns x,y,z[,radius], found the column '1'"},
       {parse_csv, "x;y;z\n",
-       "points:1: expected a header of the columns x,y,z[,radius], found the column 'x;y;z' "
-       "(separate columns by commas)"},
+       "points:1: expected a header x,y,z[,radius], found 'x;y;z' (separate columns by commas, and write numbers with "
+       "points)"},
+      {parse_csv, "x,y,z\n1,5,2,5,3,5\n",
+       "points:2: expected 3 values as in the header, found 6 (write numbers with points, not commas)"},
+      {parse_csv, std::string("\xFF\xFEx\0,\0", 6),
+       "points: is UTF-16, as spreadsheets write \"Unicode text\": save it as UTF-8"},
+      {parse_csv, std::string("x,y,z\n1,2,\0", 12), "points: holds zero bytes, so it is no text"},
+      {parse_csv, "x,y,z\r1,2,3\r",
+       "points: ends its lines with CR alone, as old programs do: save it with LF or CRLF"},
       {parse_csv, "x,y,radius\n", "points:1: expected a header of the columns x,y,z[,radius], found no z"},
       {parse_csv, "x,y,z,x\n", "points:1: the column x stands twice in the header"},
       {parse_csv, "x,y,z\n", "points:1: expected at least one sphere below the header, found none"},

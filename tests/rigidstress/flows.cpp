@@ -177,8 +177,8 @@ TEST(History, RefusesWhatCannotBeAVelocityGradientInTime) {
   expect(history_text(good, "t [s]", "[1/ms]"), "must carry its unit, [1/s]");
   expect(good, "flow.csv:1: column 1");  // no header
   expect(history_text("0,1,1,0,0,0,0,0,0,0\n"), "trace");
-  expect(history_text("0,0,1,0,0,0,0,0,0\n"), "flow.csv:3: 9 columns");
-  expect(history_text("0,0,nan,0,0,0,0,0,0,0\n"), "'nan' is not a finite number");
+  expect(history_text("0,0,1,0,0,0,0,0,0\n"), "flow.csv:3: expected 10 values as in the header, found 9");
+  expect(history_text("0,0,nan,0,0,0,0,0,0,0\n"), "expected a finite number, found 'nan'");
   expect(history_text("0,0,1,0,0,0,0,0,0,0\n0,0,1,0,0,0,0,0,0,0\n"), "times must increase");
   expect(history_text("0,0,1,0,0,0,0,0,0,0\n5,0,1,0,0,0,0,0,0,0\n"), "the flow strains by 5");
   std::string gap;
