@@ -24,12 +24,6 @@ double Protocol::stress_before(double time) const {
   return stages_[k].stress + stages_[k].rate * std::min(time - begin, stages_[k].duration);
 }
 
-double Protocol::rate(double time) const {
-  double begin = 0;
-  const Stage& stage = stages_[stage_at(time, begin)];
-  return time < begin + stage.duration ? stage.rate : 0;
-}
-
 double Protocol::stage_end(double time) const {
   double begin = 0;
   const Stage& stage = stages_[stage_at(time, begin)];

@@ -19,7 +19,6 @@ class Protocol {
 
   double stress(double time) const;         // Pa, at a boundary that of the later stage
   double stress_before(double time) const;  // at a boundary that of the earlier stage
-  double rate(double time) const;           // Pa/s
   double stage_end(double time) const;      // s, of the stage that holds just after `time`; infinite for the last ramp
   double end() const;                       // s
   // Strain gamma_dot dt summed up to a time: integral of stress over viscosity, for 1 Pa s.

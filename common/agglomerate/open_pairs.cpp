@@ -21,7 +21,6 @@ void OpenPairs::update(const std::vector<Vector3>& position, const std::vector<d
       moved = !((position[p] - reference_[p]).squaredNorm() < limit);
     if (!moved) return;
   }
-  ++searches_;
   reference_ = position;
   search_.find(position, radius, skin_, pairs_);
   erase_bonded(pairs_, bonds);

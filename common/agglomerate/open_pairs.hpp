@@ -22,15 +22,12 @@ class OpenPairs {
   void open(Pair pair);
   void close(Pair pair);
   const std::vector<Pair>& pairs() const { return pairs_; }
-  double skin() const { return skin_; }
-  std::int64_t searches() const { return searches_; }
 
  private:
   double skin_, complete_;
   NeighbourSearch search_;
   std::vector<Pair> pairs_;
   std::vector<Vector3> reference_;
-  std::int64_t searches_ = 0;
 };
 
 }  // namespace crumble

@@ -32,10 +32,7 @@ constexpr Range allowed[] = {
     {"/morphology/diameter", 0, none},
     {"/morphology/crust_thickness", 0, none},
     {"/morphology/porosity", 0, 1},
-    {"/morphology/fractal_dimension", 0, 4},  // of pair distances: 3 and what a fit of few particles adds
     {"/morphology/radial_position", 0, none},
-    {"/morphology/shell_radius", 0, none},
-    {"/morphology/number_density", 0, none},
     {"/closing/residual_rms", 0, none},
     {"/closing/residual_max", 0, none},
     {"/closing/lost_contacts", 0, none},
@@ -193,7 +190,6 @@ void results(const Context& context) {
   basis(context);
   traceless(context, "/flow/gradient");
   in_order(context, "/morphology/radial_position");
-  in_order(context, "/morphology/shell_radius");
   radial_positions_follow(context);
   for (const std::string& path : context.sound) {
     if (!path.starts_with("/flows/")) continue;

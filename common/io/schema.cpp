@@ -99,10 +99,7 @@ constexpr auto rows = std::to_array<Entry>({
   {"/morphology/crust_thickness", dataset, f64, "", "nm", none, "outer minus inner radius", "h_c", ""},
   {"/morphology/void_radius", dataset, f64, "", "nm", none, "inner radius: mean distance of the nearest tenth, less a radius"},
   {"/morphology/porosity", dataset, f64, "", "", none, "void fraction within the outer radius"},
-  {"/morphology/fractal_dimension", dataset, f64, "", "", none, "of the pair distances"},
   {"/morphology/radial_position", dataset, f64, "N", "nm", none, "distances from the centre of mass, ascending"},
-  {"/morphology/shell_radius", dataset, f64, "S+1", "nm", none, "bounds of the radial shells"},
-  {"/morphology/number_density", dataset, f64, "S", "m-3", none, "particles in a shell over its volume"},
 
   // Rescaled and imported agglomerates: contacts closed to the equilibrium gap
   {"/closing/residual_rms", dataset, f64, "", "N", none, "root mean square tension that closing left"},
@@ -130,7 +127,7 @@ constexpr auto rows = std::to_array<Entry>({
   {"/flows/<name>/critical_stress", dataset, f64, "", "Pa", none, "viscosity times shear rate that breaks a contact"},
 
   // Breakup
-  {"/flow@type", attribute, str, "", "", none, "kind of flow", "", "", "quiescent|elongation|elongational|shear|uniaxial|biaxial|history"},
+  {"/flow@type", attribute, str, "", "", none, "kind of flow", "", "", "quiescent|elongation|elongational|shear|uniaxial|biaxial"},
   {"/flow/gradient", dataset, f64, "3 3", "", none, "velocity gradient for unit shear rate, row i, column j: du_i/dx_j"},
   {"/events/time", dataset, f64, "E", "s", none, "instants, in order"},
   {"/events/stress", dataset, f64, "E", "Pa", none, "flow stress at each"},

@@ -1,6 +1,6 @@
 // Brownian points inside a reflecting surface against the continuum. Points are independent, so that the counts in
 // shells are multinomial and the sampling error is known.
-#include "dryer/point_particles.hpp"
+#include "tests/dryer/brownian_points.hpp"
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>

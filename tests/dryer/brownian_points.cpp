@@ -1,4 +1,4 @@
-#include "dryer/point_particles.hpp"
+#include "tests/dryer/brownian_points.hpp"
 
 #include <cmath>
 
