@@ -1,6 +1,7 @@
 #include "breaker/contact_network.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "common/agglomerate/network.hpp"
 
@@ -36,9 +37,10 @@ void ContactNetwork::add_loads(double length, VectorXd& loads) const {
 void ContactNetwork::tell_limits(const Contact& bond, double stress) {
   if (bond.at_limit == 0) return;
   std::uint8_t& told = told_[{bond.i, bond.j}];
-  for (int k = 0; k < 3; ++k)
-    if ((bond.at_limit & ~told) >> k & 1)
-      events_.push_back({frame_.time, stress, static_cast<EventKind>(k), bond.i, bond.j, {}});
+  for (const auto& [bit, kind] : {std::pair{limit::sliding, EventKind::slip},
+                                  {limit::twisting, EventKind::twist},
+                                  {limit::rolling, EventKind::roll}})
+    if (bond.at_limit & ~told & bit) events_.push_back({frame_.time, stress, kind, bond.i, bond.j, {}});
   told |= bond.at_limit;
 }
 
@@ -120,9 +122,9 @@ NetworkState network_state(const std::vector<Contact>& contacts, const BondLaws&
   for (const Contact& bond : contacts) {
     s.max_tension = std::max(s.max_tension, bond.normal_force);
     s.max_use = std::max(s.max_use, bond.normal_force / laws(bond.i, bond.j).pull_off_force());
-    s.slipping += bond.at_limit & 1;
-    s.twisting += bond.at_limit >> 1 & 1;
-    s.rolling += bond.at_limit >> 2 & 1;
+    s.slipping += (bond.at_limit & limit::sliding) != 0;
+    s.twisting += (bond.at_limit & limit::twisting) != 0;
+    s.rolling += (bond.at_limit & limit::rolling) != 0;
   }
   return s;
 }

@@ -142,6 +142,15 @@ void BondBlock::store(std::size_t b, Contact& contact) const {
   contact.normal.normalize();  // of single precision here; files hold unit vectors to 1e-9
   contact.twisting = twisting_[b];
   contact.gap = gap_[b];
+  // A spring that yields ends at its limit, to single precision.
+  const std::size_t c = uniform_ ? 0 : b;
+  const auto yields = [&](double displacement, Constant stiffness, Constant most) {
+    return constants_[stiffness][c] > 0 && displacement > 0 && displacement >= 0.9999 * constants_[most][c];
+  };
+  contact.at_limit =
+      static_cast<std::uint8_t>(yields(contact.sliding.norm(), k_s, most_sliding) * limit::sliding +
+                                yields(std::abs(contact.twisting), k_t, most_twisting) * limit::twisting +
+                                yields(contact.rolling.norm(), k_r, most_rolling) * limit::rolling);
   contact.born = born_[b];
 }
 

@@ -148,7 +148,6 @@ void BondBlock::hand_back(const std::vector<Index>& particle, const BondLaws& la
     bond.i = static_cast<std::int32_t>(particle[i_[b]]);
     bond.j = static_cast<std::int32_t>(particle[j_[b]]);
     store(b, bond);
-    bond.at_limit = 0;
     evaluate_loads(bond, laws(bond.i, bond.j));
   }
   std::sort(contacts.begin(), contacts.end(), [](const Contact& a, const Contact& b) {

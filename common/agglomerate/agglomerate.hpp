@@ -12,6 +12,11 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Quaternion = Eigen::Quaterniond;
 
+// Which springs of a bond were at their limits when it was last advanced.
+namespace limit {
+constexpr std::uint8_t sliding = 1, twisting = 2, rolling = 4;
+}
+
 // One bonded pair with its history. SI units; i < j; the normal points from i to j; tension is positive and
 // gap > 0 means separated surfaces. The history vectors are perpendicular to the normal and rotate with it.
 struct Contact {
@@ -25,7 +30,7 @@ struct Contact {
   Vector3 sliding_force = Vector3::Zero();   // on j, N
   double twisting_torque = 0;                // on j along the normal, N m
   Vector3 rolling_torque = Vector3::Zero();  // on j, N m
-  std::uint8_t at_limit = 0;                 // bit 0 sliding, bit 1 twisting, bit 2 rolling
+  std::uint8_t at_limit = 0;                 // sum of those of limit::
   std::int64_t born = 0;                     // step at which the contact was made
 };
 

@@ -46,9 +46,9 @@ void carry(Contact& bond, const BondMotion& motion) {
 void advance(Contact& bond, const BondLaw& law, const BondMotion& motion) {
   carry(bond, motion);
   const double tension = law.normal(bond.gap).tension;
-  bond.at_limit = static_cast<std::uint8_t>(yield(bond.sliding, law.k_s, law.sliding_limit(tension)) |
-                                            yield(bond.twisting, law.k_t, law.M_t_crit) << 1 |
-                                            yield(bond.rolling, law.k_r, law.M_r_crit) << 2);
+  bond.at_limit = static_cast<std::uint8_t>(yield(bond.sliding, law.k_s, law.sliding_limit(tension)) * limit::sliding +
+                                            yield(bond.twisting, law.k_t, law.M_t_crit) * limit::twisting +
+                                            yield(bond.rolling, law.k_r, law.M_r_crit) * limit::rolling);
   evaluate_loads(bond, law);
 }
 
