@@ -30,7 +30,8 @@ def shape(line):
 
 
 def commands(text):
-    return [line for line in text.replace("\\\n", " ").splitlines() if line.strip() and not line.startswith("#")]
+    lines = [re.sub(r"(^|\s+)#.*", "", line) for line in text.replace("\\\n", " ").splitlines()]
+    return [line for line in lines if line.strip()]
 
 
 class Manual:
