@@ -6,7 +6,7 @@
 A page is declared in accuracy/PAGE.toml. Only the tables that are named are measured again; all others stay as they are on the page,
 with the head under which they were measured. Without a name nothing is measured: texts are renewed and all tables are listed.
 
-A declaration has `page` (path of the file), `title`, `about` and one [[table]] for each question:
+A declaration has `page` (path of the file), `title`, `about`, `closing` (Markdown before and after the tables) and one [[table]] for each question:
 
     name, question, text    text says how it was measured and what the columns are, in Markdown
     cost                    what it takes, in words
@@ -167,6 +167,7 @@ def render(name, declared, measured):
         again = f"make -C pipeline accuracy RUN={full_name(name, table)}"
         body = measured.get(table["name"]) or f"Not measured since this page is generated: `{again}`" + (f" ({table['cost']})." if "cost" in table else ".")
         parts += [f"## {table['question']}", table.get("text", "").strip(), BEGIN.format(table["name"]) + "\n" + body + "\n" + END]
+    parts.append(declared.get("closing", "").strip())
     return "\n\n".join(part for part in parts if part) + "\n"
 
 

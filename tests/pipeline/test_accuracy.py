@@ -4,6 +4,7 @@ import contextlib
 import io
 import json
 import pathlib
+import re
 import sys
 import tempfile
 import unittest
@@ -109,6 +110,13 @@ class InTheTree(unittest.TestCase):
                 text = (ROOT / declared["page"]).read_text(encoding="utf-8")
                 self.assertEqual(accuracy.render(name, declared, accuracy.kept(text)), text)
                 self.assertLessEqual(set(accuracy.kept(text)), {table["name"] for table in declared["table"]})
+
+    def test_every_test_that_a_page_names_exists(self):
+        tests = "\n".join(path.read_text(encoding="utf-8") for path in (ROOT / "tests").rglob("*") if path.suffix in (".cpp", ".txt", ".py"))
+        for name, declared in accuracy.declarations().items():
+            for test in re.findall(r"`\w+(?:/\*)?\.(\w+)(?:/\*)?`", declared.get("closing", "")):
+                with self.subTest(page=name, test=test):
+                    self.assertTrue(re.search(rf"\b{test}\b", tests), "there is no such test")
 
 
 if __name__ == "__main__":
