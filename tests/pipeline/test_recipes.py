@@ -8,6 +8,8 @@ A command is a line of a fenced block ```sh, as typed in the top folder; a line 
 
 Of `make` the target has to exist. A block ```text is what the block of commands before it prints: each of its lines has to be among what was
 printed, numbers and blanks apart; a line `...` stands for any number of lines.
+
+The messages in the first column of a table below `## Messages` are in the sources, `...` standing for whatever is filled in.
 """
 
 import os
@@ -22,7 +24,8 @@ BUILD = os.environ.get("CRUMBLE_BUILD", ROOT / "build/release")
 MANUALS = ["README.md", "dryer/README.md", "breaker/README.md", "rigidstress/README.md"]
 PROGRAM = re.compile(r"build/release/bin/(dryer|breaker|rigidstress)\b")
 BLOCK = re.compile(r"(?ms)(?:^<!-- (run with|not run): ([^\n]*?) -->\n+)?^```(sh|toml|text)\n(.*?)^```$")
-NUMBER = re.compile(r"(?<![A-Za-z_])[-+]?\d[\d.,]*(?:e[-+]?\d+)?")
+# With the unit of a time, which is min instead of s on a slow machine.
+NUMBER = re.compile(r"(?<![A-Za-z_])[-+]?\d[\d.,]*(?:e[-+]?\d+)?(?: (?:s|min|h|days)\b)?")
 
 
 def shape(line):
@@ -90,6 +93,17 @@ class Recipes(unittest.TestCase):
         self.assertGreater(sum(len(commands(block)) for _, _, kind, block in blocks if kind == "sh"), 7)
 
 
+    def test_every_message_that_a_manual_explains_is_one_of_the_programs(self):
+        paths = [path for folder in ("common", "dryer", "breaker", "rigidstress") for path in sorted((ROOT / folder).rglob("*.[ch]pp"))]
+        # Literals that go on in the next line are one.
+        sources = re.sub(r'"\s*\n\s*"', "", "\n".join(path.read_text(encoding="utf-8") for path in paths))
+        for name in MANUALS:
+            for message in re.findall(r"(?m)^\| `([^`]+)` \|", (ROOT / name).read_text(encoding="utf-8").partition("## Messages")[2]):
+                for part in message.split("..."):
+                    with self.subTest(manual=name, message=message):
+                        self.assertTrue(part.strip(" :;,") in sources, part)
+
+
 class TheTestItself(unittest.TestCase):
     def complain(self, text, *patterns):
         found = complaints(text)
@@ -105,7 +119,7 @@ class TheTestItself(unittest.TestCase):
         self.complain("```toml\n# my.toml\n[particle]\nraduis = 1\n```\n```sh\nbuild/release/bin/dryer my.toml --check\n```\n", "my.toml:3")
 
     def test_other_numbers_are_allowed_and_other_words_are_not(self):
-        self.complain("```sh\necho 'd_c   160.5 nm'\n```\n```text\n...\nd_c 1.7e-3 nm\n```\n")
+        self.complain("```sh\necho 'd_c   160.5 nm in 3 s'\n```\n```text\n...\nd_c 1.7e-3 nm in 2 min\n```\n")
         self.complain("```sh\necho 'd_c   160.5 nm'\n```\n```text\nd_c 160.5 um\n```\n", "is not printed: d_c 160.5 um")
 
     def test_a_target_that_does_not_exist_is_found(self):
