@@ -26,7 +26,7 @@ struct ProcessInputs {
 // So does a droplet that would need more memory than the machine has.
 ProcessInputs process_inputs(const Scene& scene, const Machine& machine);
 
-// At the peak of a run, bytes: 1200 a particle, rounded up from the 1,100 of stabilised steps in dryer/README.md.
+// At the peak of a run, bytes: 1200 a particle, rounded up from the 1,100 of stabilised steps in dryer/NOTEBOOK.md.
 double memory_of(double particles);
 
 }  // namespace crumble::dryer

@@ -19,12 +19,13 @@ def write_records(path, records):
     write_csv(path, records[0].keys(), (record.values() for record in records))
 
 
-def print_markdown(heading, rows):
-    """Aligned, to be read as it stands or pasted into a README.md."""
+def markdown(heading, rows):
+    """Aligned, to be read as it stands or put into a page."""
     rows = list(rows)
     widths = [max(len(row[k]) for row in [heading, *rows]) for k in range(len(heading))]
     line = lambda cells: "| " + " | ".join(cell.ljust(width) for cell, width in zip(cells, widths)) + " |"
-    print(line(heading))
-    print("|" + "|".join("-" * (width + 2) for width in widths) + "|")
-    for row in rows:
-        print(line(row))
+    return "\n".join([line(heading), "|" + "|".join("-" * (width + 2) for width in widths) + "|", *map(line, rows)])
+
+
+def print_markdown(heading, rows):
+    print(markdown(heading, rows))

@@ -1,6 +1,6 @@
 // The states and choices that break a dryer, each with every integrator that it concerns, to the end of the droplet:
 // finite, every particle kept, no overlap deeper than stated, in a bounded number of steps; and the same bits after a
-// restart in the middle of each. Further hard cases stand beside what they concern: dryer/README.md lists them all.
+// restart in the middle of each. Further hard cases stand beside what they concern: dryer/ACCURACY.md lists them all.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
