@@ -39,7 +39,8 @@ def accessible(radius, droplet, tension, temperature):
     offset = x - radius
     energy = math.pi * tension * (offset * numpy.sqrt(radius**2 - offset**2) +
                                   radius**2 * (numpy.arcsin(offset / radius) + math.pi / 2))
-    return droplet - radius + numpy.trapz(numpy.exp(-energy / (BOLTZMANN * temperature)), x)
+    passes = numpy.exp(-energy / (BOLTZMANN * temperature))
+    return droplet - radius + 0.5 * numpy.sum((passes[1:] + passes[:-1]) * numpy.diff(x))  # trapezoidal rule
 
 
 def liquid(of):
@@ -74,7 +75,7 @@ def continuum(dryer, peclet, theta):
         return numpy.array([0.0, 1.0]), numpy.array([1.0, 1.0])
     with tempfile.TemporaryDirectory() as folder:
         out = pathlib.Path(folder) / "profile.csv"
-        subprocess.run([dryer, "continuum", "--peclet", repr(peclet), "--theta", repr(theta), "-o", out], check=True,
+        subprocess.run([dryer, "continuum", "--peclet", str(peclet), "--theta", str(theta), "-o", out], check=True,
                        stdout=subprocess.DEVNULL)
         rows = list(csv.DictReader(io.StringIO(out.read_text())))
     return numpy.array([float(row["rho"]) for row in rows]), numpy.array([float(row["gamma"]) for row in rows])

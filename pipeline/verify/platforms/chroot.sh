@@ -37,6 +37,7 @@ make_system() {
 fresh_clone() {
   rm -rf "${folder:?}$1"
   git clone -q --no-hardlinks "$top" "$folder$1"
+  commit="$(git -C "$top" rev-parse --short HEAD)"
 }
 
 # in_system COMMAND...: as root in the system, with nothing of this environment. The mounts end with the command.
@@ -61,7 +62,7 @@ step() {
 
 # describe PACKAGE...: system, commit, processor, versions.
 describe() {
-  echo "Debian $(< "$folder/etc/debian_version"), commit $(git -C "$top" rev-parse --short HEAD)," \
+  echo "Debian $(< "$folder/etc/debian_version"), commit $commit," \
     "$(sed -n 's/^model name.*: //p' /proc/cpuinfo | sort -u), $(nproc) cores"
   in_system dpkg-query -W -f '${Package} ${Version}\n' "$@" 2> /dev/null | paste -sd, | sed 's/,/, /g' | fold -sw 120 || true
 }
