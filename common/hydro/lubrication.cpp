@@ -31,18 +31,22 @@ Square<n> part(const PairMatrix& R, const std::array<int, n>& rows) {
   return result;
 }
 
-template <std::size_t n>
-Square<n> excess(const PairMatrix& exact, const PairMatrix& far_field, const std::array<int, n>& rows) {
-  const Square<n> far = part(far_field, rows);
-  return part(exact, rows) - far.llt().solve(Square<n>::Identity());
+// What a pair resists if it is free as a whole: its rigid motions Z adjust such that they bear no load,
+//   R - R Z (Z^T R Z)^-1 Z^T R.
+template <std::size_t n, int m>
+Square<n> free_as_a_whole(const Square<n>& R, const Eigen::Matrix<double, static_cast<int>(n), m>& Z) {
+  const Eigen::Matrix<double, static_cast<int>(n), m> loads = R * Z;
+  return R - loads * (Z.transpose() * loads).inverse() * loads.transpose();
 }
 
-// Takes the span of the columns of Z out, orthogonally in the metric.
 template <std::size_t n, int m>
-Square<n> projector(const Eigen::Matrix<double, static_cast<int>(n), m>& Z,
-                    const Eigen::Matrix<double, static_cast<int>(n), 1>& metric) {
-  const Eigen::Matrix<double, m, static_cast<int>(n)> dual = Z.transpose() * metric.asDiagonal();
-  return Square<n>::Identity() - Z * (dual * Z).inverse() * dual;
+Square<n> excess(const PairMatrix& exact, const PairMatrix& far_field, const std::array<int, n>& rows,
+                 PairMotion motion, const Eigen::Matrix<double, static_cast<int>(n), m>& rigid) {
+  const Square<n> near = part(exact, rows), far = part(far_field, rows).llt().solve(Square<n>::Identity());
+  if constexpr (m > 0) {
+    if (motion == PairMotion::relative) return free_as_a_whole<n, m>(near, rigid) - free_as_a_whole<n, m>(far, rigid);
+  }
+  return near - far;
 }
 
 struct AxialBlocks {
@@ -66,20 +70,6 @@ void continue_to_floor(AxialBlocks& D, double shift) {
   }
   D.stretch = stretch.transpose() * D.stretch * stretch;
   D.shear = shear.transpose() * D.shear * shear;
-}
-
-void take_out_rigid_motion(AxialBlocks& D, double distance, double radius) {
-  const double w = radius * radius, half = distance / 2;
-  const Square<4> P0 = projector<4, 1>({1, 0, 1, 0}, {1, 0, 1, 0});
-  const Square<2> Ps = projector<2, 1>({1, 1}, {1, 1});
-  Eigen::Matrix<double, 6, 2> Z;  // U_x = V + omega_y z, centre half way
-  Z << 1, -half, 0, 1, 0, 0, 1, half, 0, 1, 0, 0;
-  Eigen::Matrix<double, 6, 1> metric;
-  metric << 1, w, 0, 1, w, 0;
-  const Square<6> P1 = projector<6, 2>(Z, metric);
-  D.stretch = P0.transpose() * D.stretch * P0;
-  D.spin = Ps.transpose() * D.spin * Ps;
-  D.shear = P1.transpose() * D.shear * P1;
 }
 
 // The pair's scalars back from its blocks; inverse of two_sphere_pair for an axis along z.
@@ -134,9 +124,12 @@ std::vector<std::pair<int, int>> near_pairs(const Spheres& s, double range) {
 AxialBlocks blocks_at(double distance, double a_1, double a_2, PairMotion motion, double gap_floor) {
   const Vector3 r = distance * Vector3::UnitZ();
   const PairMatrix exact = two_sphere_pair(r, a_1, a_2, gap_floor), far = far_field_pair(r, a_1, a_2);
-  AxialBlocks D{excess(exact, far, stretching), excess(exact, far, spinning), excess(exact, far, shearing),
-                excess(exact, far, straining)};
-  if (motion == PairMotion::relative) take_out_rigid_motion(D, distance, (a_1 + a_2) / 2);
+  const double half = distance / 2;
+  Eigen::Matrix<double, 6, 2> shearing_rigidly;  // U_x = V + omega_y z, z from half way
+  shearing_rigidly << 1, -half, 0, 1, 0, 0, 1, half, 0, 1, 0, 0;
+  const AxialBlocks D{
+      excess<4, 1>(exact, far, stretching, motion, {1, 0, 1, 0}), excess<2, 1>(exact, far, spinning, motion, {1, 1}),
+      excess<6, 2>(exact, far, shearing, motion, shearing_rigidly), excess<2, 0>(exact, far, straining, motion, {})};
   return D;
 }
 

@@ -5,11 +5,13 @@
 // lower bound.
 //   as in Eq. 9 of the paper (Durlofsky, Brady & Bossis 1987):  R = M_inf^-1 + sum of pairs R_2B - R_2B,inf
 //     Exact for two spheres. In a cluster the finite part acts on the collective motion of every near pair and adds up.
-//   relative:                                                   R = M_inf^-1 + sum of pairs P^T (R_2B - R_2B,inf) P
-//     P takes the six rigid-body motions of the pair out of its velocities (U, Omega)_1, (U, Omega)_2, orthogonally
-//     with Omega times the mean radius as a velocity, and keeps all else, the strain of the ambient flow included. So a
-//     rigid cluster's drag is that of the far field, and the bond force of a doublet in a flow is exact.
-// Only the geometry of the pair enters P, so the projected matrix has the same eleven scalars as any pair's.
+//   relative:                                                   R = M_inf^-1 + sum of pairs S(R_2B) - S(R_2B,inf)
+//     S(R) = R - R Z (Z^T R Z)^-1 Z^T R is what the pair resists while it is free as a whole: its six rigid-body
+//     motions, the columns of Z, adjust such that they bear no load. A rigid motion of the pair then meets no
+//     lubrication, so a rigid cluster's drag is that of the far field; the loads between the spheres of a free doublet
+//     in any linear flow are those of exact two-sphere hydrodynamics, whatever their radii; and the term stays positive
+//     semi-definite, since S keeps the order of matrices (a Schur complement; both M_inf^-1 <= R_2B).
+// Everything has the symmetry of the pair, so the term has the same eleven scalars as any pair's.
 #pragma once
 
 #include <Eigen/Sparse>
