@@ -7,7 +7,7 @@ A command is a line of a fenced block ```sh, as typed in the top folder; a line 
     <!-- not run: REASON -->      too long: each program of the block is run with --check
 
 Of `make` the target has to exist. A block ```text is what the block of commands before it prints: each of its lines has to be among what was
-printed, numbers and blanks apart; a line `...` stands for any number of lines.
+printed, blanks and numbers (also how many in a row) apart; a line `...` stands for any number of lines.
 
 The messages in the first column of a table below `## Messages` are in the sources, `...` standing for whatever is filled in.
 """
@@ -29,7 +29,7 @@ NUMBER = re.compile(r"(?<![A-Za-z_])[-+]?\d[\d.,]*(?:e[-+]?\d+)?(?: (?:s|min|h|d
 
 
 def shape(line):
-    return " ".join(NUMBER.sub("#", line).split())
+    return re.sub(r"#( #)+", "#", " ".join(NUMBER.sub("#", line).split()))
 
 
 def commands(text):
