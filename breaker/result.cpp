@@ -176,7 +176,7 @@ std::string result_text(const BreakupRun& run, const BreakerScene& scene, std::o
 
 namespace {
 
-// The breakups of breaker/README.md (doublet, coil, compact, hollow; tolerance 0.01) took 19 to 60 steps a contact,
+// The breakups of breaker/NOTEBOOK.md (doublet, coil, compact, hollow; tolerance 0.01) took 19 to 60 steps a contact,
 // each about as long as the new far field of a moved configuration, s.
 std::string expected_cost(std::size_t contacts, double renewal) {
   const double few = 19 * static_cast<double>(contacts), many = 60 * static_cast<double>(contacts);

@@ -127,7 +127,7 @@ const ParameterTable& breaker_parameters() {
        {P::choice("method", {"implicit", "explicit"},
                   "implicit: adaptive, in the frame of the turning body; explicit: the paper's, fixed step, slow")
             .by_default("implicit"),
-        P::real("tolerance", "", "implicit: of the range of a bond; breaker/README.md says what it controls")
+        P::real("tolerance", "", "implicit: of the range of a bond; breaker/MODEL.md says what it controls")
             .above(1e-6)
             .at_most(0.1)
             .by_default(0.01),

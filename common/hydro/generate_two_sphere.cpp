@@ -1,4 +1,4 @@
-// Generates the stored two-sphere tables from the exact series. See common/hydro/README.md, "Two spheres".
+// Generates the stored two-sphere tables from the exact series. See common/hydro/TWO_SPHERES.md.
 //   generate_two_sphere equal > data/two_sphere_equal.inc
 //   generate_two_sphere unequal > data/two_sphere_unequal.inc
 //   generate_two_sphere reference > data/two_sphere_reference.txt

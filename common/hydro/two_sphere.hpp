@@ -9,8 +9,8 @@ namespace crumble {
 //   gap: surface separation over the mean radius (a1+a2)/2 (over a for equal spheres), > 0, infinity allowed
 //   radius_ratio: a2/a1. Sphere 2's own scalars are those of the ratio a1/a2, see swapped().
 // Source: series of two_sphere_series.hpp, stored as Chebyshev series after subtraction of near_field.hpp; error
-// measured in common/hydro/README.md. Throws std::invalid_argument for a gap <= 0 (or not a number) and for a ratio
-// that is not tabulated.
+// measured in common/hydro/TWO_SPHERES.md. Throws std::invalid_argument for a gap <= 0 (or not a number) and for a
+// ratio that is not tabulated.
 ResistanceScalars two_sphere_resistance(double gap, double radius_ratio = 1);
 
 // The same scalars seen from the other sphere: with f computed for a1/a2, swapped(f) holds f22 and f21 for the axis

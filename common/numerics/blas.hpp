@@ -3,7 +3,7 @@
 // OpenBLAS picks its kernel when it is loaded, by the processor it finds; Eigen's are compiled for the level of the
 // build. OpenBLAS is the faster where both use registers of 32 bytes (AVX2) or its own are the wider. It is not where
 // it does not know the processor and falls back to SSE (0.3.21 on many newer ones), nor, for the Cholesky factors that
-// are most of the work, against Eigen compiled for AVX-512 (README.md of common/hydro has the figures). The choice
+// are most of the work, against Eigen compiled for AVX-512 (NOTEBOOK.md of common/hydro has the figures). The choice
 // follows from the name of the kernel and the level of the build alone: a measurement at the start of each run would
 // change the last bits of results from run to run.
 #pragma once

@@ -13,6 +13,7 @@ A declaration has `page` (path of the file), `title`, `about`, `closing` (Markdo
     target                  built before, if it is none of the four programs
     command                 run by bash in the top folder, one thread unless it says otherwise; with
       starting = ["| N |"]  of its output the Markdown tables whose heading begins so; without it all of them
+    command, csv            the command writes a CSV file into the folder {out}: that is the table
     command, rows, columns  the command is run once a row, with the row's arguments; the row's numbers come from the report {out}.json
       rows = [{name = "seed 1", arguments = "--seed 1"}]
       columns = [["d_c, nm", "results.d_c_nm", ".2f"]]        heading, place in the report, Python's format; a fourth entry "percent":
@@ -123,14 +124,24 @@ def run_rows(table):
     return of_reports(table, reports, ("arguments", arguments))
 
 
+def of_csv(text):
+    heading, *rows = csv.reader(line for line in text.splitlines() if not line.startswith("#"))
+    return markdown(heading, rows)
+
+
+def run_csv(table):
+    with tempfile.TemporaryDirectory(prefix="accuracy-") as out:
+        run(table["command"].replace("{out}", out), subprocess.PIPE)
+        return of_csv((pathlib.Path(out) / table["csv"]).read_text(encoding="utf-8"))
+
+
 def from_file(table):
     path = ROOT / table["file"]
     text = path.read_text(encoding="utf-8")
     if path.suffix == ".json":
         return of_reports(table, json.loads(text))
     if path.suffix == ".csv":
-        heading, *rows = csv.reader(line for line in text.splitlines() if not line.startswith("#"))
-        return markdown(heading, rows)
+        return of_csv(text)
     return tables(text, table.get("starting"))
 
 
@@ -143,7 +154,10 @@ def measure(table):
     if "target" in table:
         subprocess.run(["cmake", "--build", ROOT / "build/release", "--target", table["target"]], check=True, stdout=sys.stderr)
         before = child_seconds()
-    body = run_rows(table) if "rows" in table else tables(run(table["command"]), table.get("starting"))
+    if "rows" in table:
+        body = run_rows(table)
+    else:
+        body = run_csv(table) if "csv" in table else tables(run(table["command"]), table.get("starting"))
     shown = table["command"].replace("{out}", "out") + (" ARGUMENTS" if "rows" in table else "")
     return head(shown, now, datetime.date.today(), processor(),
                 f", load {load:.1f}; all of it took {child_seconds() - before:.3g} s of CPU") + "\n\n" + body

@@ -40,7 +40,7 @@ Means dried(int starts, const ContactChoice& contact) {
 
 // Beside the one hollow granule of the paper: d_c and h_c/d_c of Table 2, contacts (183 to 185) of section 3.2. Ours,
 // the mean of 40 starts, are 1 % larger, their crust is thicker by 0.011 d_c, both within the scatter of single
-// granules (2.6 % and 0.023), and they have 11 % fewer contacts (scatter 2 %; pipeline/verify/README.md tells which
+// granules (2.6 % and 0.023), and they have 11 % fewer contacts (scatter 2 %; pipeline/verify/NOTEBOOK.md tells which
 // choice decides them). Bounds: 4.5 standard errors of eight starts beside 40, 7e-6 by chance each.
 TEST(Morphology, of_the_defaults_is_that_of_table_2_but_for_a_tenth_of_the_contacts) {
   const Row paper = read_table("paper_table_2.csv").front();

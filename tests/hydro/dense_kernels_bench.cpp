@@ -2,8 +2,8 @@
 //
 //   bench_dense_kernels [orders]
 //
-// Prints the rows of the table in common/hydro/README.md. Milliseconds of processor time, the shortest of several runs;
-// the difference is that of the factors, relative, in the Frobenius norm.
+// Prints the rows of the table in common/hydro/NOTEBOOK.md. Milliseconds of processor time, the shortest of several
+// runs; the difference is that of the factors, relative, in the Frobenius norm.
 #include <fmt/format.h>
 
 #include <algorithm>

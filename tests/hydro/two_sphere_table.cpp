@@ -53,7 +53,7 @@ double worst_error(const ResistanceScalars& found, const ResistanceScalars& exac
   return worst;
 }
 
-// The bound promised to users is 1e-6; these are what the truncation of the two tables leaves (README).
+// The bound promised to users is 1e-6; these are what the truncation of the two tables leaves (TWO_SPHERES.md).
 double truncation(double radius_ratio) { return radius_ratio == 1 ? 5e-10 : 3e-8; }
 
 TEST(TwoSphereTable, FollowsTheStoredExactSolutionFromContactToInfinity) {

@@ -79,6 +79,12 @@ class Pages(unittest.TestCase):
                          [["case", "d", "difference, %", "nothing", "arguments"], ["one", "1.50", "-25.0", "", "`1.5`"],
                           ["two", "2.00", "", "", "`2`"]])
 
+    def test_a_table_can_be_a_csv_file_that_the_command_writes(self):
+        self.declare(PAGE[:PAGE.index("[[table]]")] + '[[table]]\nname = "n"\nquestion = "q"\ncsv = "a.csv"\n'
+                     "command = \"printf 'x,y\\\\n1,2\\\\n' > {out}/a.csv\"\n")
+        self.assertIn("> out/a.csv\n\nCommit", text := self.run_it("clock.n"))
+        self.assertIn("| x | y |\n|---|---|\n| 1 | 2 |\n<!-- end -->", text)
+
     def test_what_is_not_measured_again_stays_below_a_new_text(self):
         before = accuracy.kept(self.run_it("clock"))
         self.declare(PAGE.replace("Seconds a day", "Minutes a year").replace("printf", "false"))

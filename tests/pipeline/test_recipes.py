@@ -1,13 +1,13 @@
 """Every command in the manuals is run, in a scratch folder, manual by manual and in the order of the page.
 
-A command is a line of a fenced block ```sh, as typed in the top folder; a line that ends with \\ goes on. A block ```toml whose first line is
-`# NAME.toml` becomes that file. Right before a block one comment may stand:
+A command is a line of a fenced block ```sh, as typed in the top folder; a line that ends with \\ goes on. A block ```toml or ```python whose first
+line is `# NAME.toml` or `# NAME.py` becomes that file. Right before a block one comment may stand:
 
     <!-- run with: OPTIONS -->    the options are added to each program of the block, to make it short
     <!-- not run: REASON -->      too long: each program of the block is run with --check
 
 Of `make` the target has to exist. A block ```text is what the block of commands before it prints: each of its lines has to be among what was
-printed, numbers and blanks apart; a line `...` stands for any number of lines.
+printed, blanks and numbers (also how many in a row) apart; a line `...` stands for any number of lines.
 
 The messages in the first column of a table below `## Messages` are in the sources, `...` standing for whatever is filled in.
 """
@@ -21,15 +21,15 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BUILD = os.environ.get("CRUMBLE_BUILD", ROOT / "build/release")
-MANUALS = ["README.md", "dryer/README.md", "breaker/README.md", "rigidstress/README.md"]
+MANUALS = ["README.md", "dryer/README.md", "breaker/README.md", "rigidstress/README.md", "common/io/README.md"]
 PROGRAM = re.compile(r"build/release/bin/(dryer|breaker|rigidstress)\b")
-BLOCK = re.compile(r"(?ms)(?:^<!-- (run with|not run): ([^\n]*?) -->\n+)?^```(sh|toml|text)\n(.*?)^```$")
+BLOCK = re.compile(r"(?ms)(?:^<!-- (run with|not run): ([^\n]*?) -->\n+)?^```(sh|toml|python|text)\n(.*?)^```$")
 # With the unit of a time, which is min instead of s on a slow machine.
 NUMBER = re.compile(r"(?<![A-Za-z_])[-+]?\d[\d.,]*(?:e[-+]?\d+)?(?: (?:s|min|h|days)\b)?")
 
 
 def shape(line):
-    return " ".join(NUMBER.sub("#", line).split())
+    return re.sub(r"#( #)+", "#", " ".join(NUMBER.sub("#", line).split()))
 
 
 def commands(text):
@@ -51,9 +51,9 @@ class Manual:
         """What does not hold, in words."""
         printed = ""
         for way, words, kind, block in BLOCK.findall(self.text):
-            if kind == "toml":
+            if kind in ("toml", "python"):
                 first = block.splitlines()[0]
-                if match := re.fullmatch(r"# (\S+\.toml)", first):
+                if match := re.fullmatch(r"# (\S+\.(?:toml|py))", first):
                     (self.folder / match[1]).write_text(block, encoding="utf-8")
             elif kind == "text":
                 was = {shape(line) for line in printed.splitlines()}
