@@ -163,12 +163,12 @@ int main(int argc, char** argv) {
     const BrownianControl control{step, depth};
     const bool fine = depth > 6;
     const PairRow pair = pair_row(material, control, fine ? pair_time / 4 : pair_time);
-    const std::string many = fine ? "" : [&] {
+    const std::string of_many = fine ? "" : [&] {
       const Mean bonds = bonds_of_30(material, control, time_of_30);
       return fmt::format("{:.2f} +- {:.2f}", bonds.value, bonds.error);
     }();
     fmt::print("| {:g} | {:g} | {:.4f} +- {:.4f} | {:.1f} +- {:.1f} | {} |\n", softening, step, pair.bonded.value,
-               pair.bonded.error, 1e9 * pair.lifetime.value, 1e9 * pair.lifetime.error, many);
+               pair.bonded.error, 1e9 * pair.lifetime.value, 1e9 * pair.lifetime.error, of_many);
     std::fflush(stdout);
   }
 }
