@@ -72,6 +72,13 @@ void Course::observe(const Pieces& pieces, double stress) {
   if (!breakup_.severed && (past_.empty() || look_.stress > 1.001 * past_.back().stress)) past_.push_back(look_);
 }
 
+// In order of time: pieces that move one after the other tell of the same interval.
+void Course::note(Event event) {
+  const auto place = std::upper_bound(events_.begin(), events_.end(), event,
+                                      [](const Event& a, const Event& b) { return a.time < b.time; });
+  events_.insert(place, std::move(event));
+}
+
 bool Course::collect_events(Piece& piece) {
   bool ruptured = false;
   for (Event& e : piece.integrator->network().take_events()) {
@@ -81,7 +88,7 @@ bool Course::collect_events(Piece& piece) {
     if (e.kind == EventKind::rupture) ruptured = true;
     if (e.kind == EventKind::rupture && !breakup_.first_rupture) breakup_.first_rupture = e.stress;
     if (at_limit && !breakup_.first_limit) breakup_.first_limit = e.stress;
-    events_.push_back(std::move(e));
+    note(std::move(e));
   }
   return ruptured;
 }
@@ -98,7 +105,7 @@ void Course::note_fragments(const Piece& piece, double stress) {
 }
 
 void Course::lose(double time, double stress, const std::vector<std::int64_t>& sizes) {
-  events_.push_back({time, stress, EventKind::fragment_lost, -1, -1, sizes});
+  note({time, stress, EventKind::fragment_lost, -1, -1, sizes});
   breakup_.fragments = sizes;
 }
 

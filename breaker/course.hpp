@@ -66,6 +66,7 @@ class Course {
   Breakup breakup_;
   double max_use_ = 0;
 
+  void note(Event event);
   void look_back(double stress);
 };
 

@@ -1,6 +1,7 @@
 // A breakup goes on from its checkpoint to the same bits, with one piece and with several, with either integrator.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "breaker/breakup_checkpoint.hpp"
@@ -63,6 +64,28 @@ TEST_P(BreakupRestart, ContinuesToTheSameBitsBeforeAndAfterBreakup) {
     EXPECT_EQ(whole.breakup().fragments, second.breakup().fragments);
     EXPECT_EQ(whole.events().size(), second.events().size());
   }
+}
+
+// Pieces move one after the other through the same interval; what they tell of it stands in order of time.
+TEST(Breakup, EventsOfSeveralPiecesAreInOrderOfTime) {
+  BreakerScene scene;
+  scene.model = elongation(Rung::fts);
+  scene.protocol = Protocol({{0, 5e7}});
+  scene.largest_stress = 1e7;
+  scene.tolerance = 0.1;
+  scene.until_stable = true;
+  scene.stable_strain = 2;
+  scene.lost_particles = 1;
+  // A cube of 4 x 4 x 4 spheres with holes: its pieces break on.
+  std::vector<Vector3> x;
+  for (int k = 0; k < 64; ++k)
+    if (k % 5 != 3) x.emplace_back(2.0 * (k / 16), 2.0 * (k / 4 % 4), 2.0 * (k % 4));
+  const Agglomerate start = cluster(x);
+  BreakupRun run(scene, start, 1);
+  while (!run.finished()) run.step();
+  ASSERT_GT(run.breakup().fragments.size(), 2u);
+  const auto earlier = [](const Event& a, const Event& b) { return a.time < b.time; };
+  EXPECT_TRUE(std::is_sorted(run.events().begin(), run.events().end(), earlier));
 }
 
 INSTANTIATE_TEST_SUITE_P(Integrators, BreakupRestart, ::testing::Bool(),
