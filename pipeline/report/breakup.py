@@ -1,14 +1,15 @@
-"""One breakup as tables: size, shape and contacts against flow stress (Fig 7 of Vasquez Giuliano et al. 2022) as CSV, what
-happened to the contacts as CSV, and the critical stress beside the prediction for a rigid agglomerate.
+"""One breakup as tables, and its critical stress beside the prediction for a rigid agglomerate.
 
-    breakup.py BREAKUP.h5      (with BREAKUP.json and, if it is there, BREAKUP-rigid.json beside it)
+STEM-course.csv: size, shape and contacts against flow stress (Fig 7 of Vasquez Giuliano et al. 2022); STEM-events.csv: what happened
+to the contacts. Beside BREAKUP.h5 stands its report BREAKUP.json and, if there is one, that of rigidstress, BREAKUP-rigid.json.
+
+    breakup.py results/hollow-1-break.h5 -o results/hollow-1-break
 """
 import json
-import pathlib
-import sys
 
 import h5py
 
+import arguments
 from table import write_csv
 
 KINDS = ["slips", "twists", "rolls", "breaks", "made", "fragment lost"]
@@ -18,8 +19,7 @@ COLUMNS = {"flow_stress": "flow_stress_pa", "radius_of_gyration": "radius_of_gyr
            "max_tension": "max_tension_n", "slipping": "slipping", "twisting": "twisting", "rolling": "rolling"}
 
 
-def tables(path):
-    stem = path.with_suffix("")
+def tables(path, stem):
     with h5py.File(path) as file:
         series = [file[f"series/{name}/value"][:] for name in COLUMNS]
         particles = len(file["particles/all/radius"])
@@ -29,14 +29,20 @@ def tables(path):
         events = zip(file["events/time"][:], file["events/stress"][:], file["events/kind"][:], file["events/pair"][:])
         write_csv(stem.with_name(stem.name + "-events.csv"), ["time_s", "flow_stress_pa", "what", "i", "j"],
                   [[f"{t:.9g}", f"{s:.7g}", KINDS[kind], i, j] for t, s, kind, (i, j) in events])
-    return stem
 
 
-def main(path):
-    stem = tables(path)
+def command_line():
+    parser = arguments.parser(__doc__, "tables STEM-course.csv and STEM-events.csv", "STEM")
+    parser.add_argument("breakup", type=arguments.file, metavar="BREAKUP.h5", help="of breaker")
+    return parser
+
+
+def main(options):
+    path, stem = options.breakup, options.out
+    tables(path, stem)
     found = json.loads(path.with_suffix(".json").read_text())
     result, error = found["results"], found["errors"]["critical_stress_relative"]["value"]
-    rigid = stem.with_name(stem.name + "-rigid.json")
+    rigid = path.with_name(path.stem + "-rigid.json")
     print(f"{'critical stress, flexible':34}", "nothing broke" if result["critical_stress_pa"] is None else
           f"{result['critical_stress_pa']:.0f} Pa" + (f" +- {100 * error:.2g} %" if error is not None else ""))
     if result["first_rupture_stress_pa"] is not None:
@@ -54,8 +60,8 @@ def main(path):
                       ("smallest semi-axis", "smallest_semi_axis_change_relative")):
         print(f"{name:34} {100 * result[key]:+.1f} %")
     print(f"{'fragments':34} {' '.join(map(str, result['fragments']))}")
-    print(f"tables: {stem}-course.csv (Fig 7), {stem}-events.csv; pictures: {stem}-strip.png (Fig 6), {stem}-course.svg")
+    print(f"tables: {stem}-course.csv (Fig 7), {stem}-events.csv")
 
 
 if __name__ == "__main__":
-    main(pathlib.Path(sys.argv[1]))
+    main(command_line().parse_args())

@@ -1,19 +1,19 @@
 """One breakup in pictures (Figs 6 and 7 of Vasquez Giuliano et al. 2022): snapshots as a strip, courses against flow stress.
 
-    breakup_pictures.py BREAKUP.h5 [SNAPSHOTS]      (writes BREAKUP-strip.png and BREAKUP-course.svg)
-
 The strip looks along y, so that elongation and shear lie in the page; spheres are coloured by their number of contacts.
-"""
-import pathlib
-import sys
 
+    breakup_pictures.py results/hollow-1-break.h5 -o results/hollow-1-break
+"""
 import h5py
 import matplotlib
 import numpy
 
+import arguments
 from figure import BLACK, BLUE, GREEN, ORANGE, pyplot, save
 from matplotlib.collections import PatchCollection
 from matplotlib.patches import Circle
+
+SNAPSHOTS = 6
 
 
 def chosen(stress, broken, count):
@@ -40,10 +40,10 @@ def draw(axes, x, radius, contacts, colours):
                                                 zorder=2 + 3 * rank + 4 * shift))
 
 
-def strip(path, out, count):
+def strip(path, out):
     with h5py.File(path) as file:
         stress = file["observables/flow_stress/value"][:]
-        frames = chosen(stress, file["h5md/modules/agglomerate"].attrs["state"] in ("broken", b"broken"), count)
+        frames = chosen(stress, file["h5md/modules/agglomerate"].attrs["state"] in ("broken", b"broken"), SNAPSHOTS)
         radius, offset = file["particles/all/radius"][:], file["contacts/offset"][:]
         snapshots = []
         for k in frames:
@@ -97,8 +97,16 @@ def course(path, out):
     save(figure, out)
 
 
+def command_line():
+    parser = arguments.parser(__doc__, "pictures STEM-strip.png and STEM-course.svg", "STEM")
+    parser.add_argument("breakup", type=arguments.file, metavar="BREAKUP.h5", help="of breaker")
+    return parser
+
+
+def main(options):
+    strip(options.breakup, f"{options.out}-strip.png")
+    course(options.breakup, f"{options.out}-course.svg")
+
+
 if __name__ == "__main__":
-    source = pathlib.Path(sys.argv[1])
-    stem = source.with_suffix("")
-    strip(source, stem.with_name(stem.name + "-strip.png"), int(sys.argv[2]) if len(sys.argv) > 2 else 6)
-    course(source, stem.with_name(stem.name + "-course.svg"))
+    main(command_line().parse_args())

@@ -1,22 +1,18 @@
-"""Breakups of several granules beside the rigid prediction for each: breakups.py KIND-SEED.json...
+"""Breakups of several granules beside the rigid prediction for each, as a table in Markdown.
 
-Beside every report of breaker lies KIND-SEED-rigid.json of rigidstress. Prints a table in Markdown, which the page of the paper
-shows, too; changes are those at 1 % less than the critical stress.
+Beside every report FILE.json of breaker lies that of rigidstress, FILE-rigid.json. Changes are those at 1 % less than the critical stress.
+
+    breakups.py compact=compact-1.json hollow=hollow-1.json,hollow-2.json -o table.md
 """
 import json
-import pathlib
 import statistics
-import sys
 
+import arguments
 import published
 from table import print_markdown
 
 HEADING = ["granule", "breaks at", "the paper", "rigid", "the paper", "ratio", "first contact breaks", "contacts",
            "radius of gyration", "largest, smallest semi-axis", "", "fragments", "CPU s"]
-
-
-def kind(path):
-    return path.stem.rpartition("-")[0]
 
 
 def load(path):
@@ -25,10 +21,10 @@ def load(path):
     return found, rigid["results"]["elongation"]["critical_stress_settled_pa"]
 
 
-def row(path, found, rigid):
+def row(kind, path, found, rigid):
     r, error = found["results"], found["errors"]["critical_stress_relative"]["value"]
     uncertain = "" if error is None else f" +- {100 * error:.1g} %"
-    theirs = [f"{stress} Pa" for stress in published.BREAKUPS.get(kind(path), ())] or ["", ""]
+    theirs = [f"{stress} Pa" for stress in published.BREAKUPS.get(kind, ())] or ["", ""]
     return [path.stem, f"{r['critical_stress_pa']:.0f} Pa{uncertain}", theirs[0], "settles nowhere" if rigid is None else f"{rigid:.0f} Pa", theirs[1],
             "" if rigid is None else f"{r['critical_stress_pa'] / rigid:.2f}", f"{r['first_rupture_stress_pa']:.0f} Pa",
             f"{r['contacts_initial']} -> {r['contacts_at_breakup']}", f"{100 * r['rg_change_relative']:+.1f} %",
@@ -36,13 +32,13 @@ def row(path, found, rigid):
             r["breakage"], " ".join(map(str, r["fragments"][:4])), f"{found['cpu_s']:.0f}"]
 
 
-def main(paths):
-    loaded = [(path, *load(path)) for path in paths]
+def show(kinds):
+    loaded = [(kind, path, *load(path)) for kind, paths in kinds.items() for path in paths]
     print_markdown(HEADING, [row(*one) for one in loaded])
     means = {}
-    for path, found, rigid in loaded:
+    for kind, _, found, rigid in loaded:
         if rigid is not None:
-            means.setdefault(kind(path), []).append((found["results"]["critical_stress_pa"], rigid))
+            means.setdefault(kind, []).append((found["results"]["critical_stress_pa"], rigid))
     means = {name: [statistics.fmean(values) for values in zip(*pairs)] for name, pairs in means.items()}
     print()
     for name, (flexible, rigid) in means.items():
@@ -52,7 +48,16 @@ def main(paths):
         print(f"compact over hollow: {means['compact'][0] / means['hollow'][0]:.2f}; the paper {theirs:.2f}")
 
 
+def command_line():
+    parser = arguments.parser(__doc__, "the table (default: printed)", required=False)
+    arguments.add_groups(parser, "kinds of granules, each with its reports of breaker")
+    return parser
+
+
+def main(options):
+    with arguments.printing_to(options.out):
+        show(options.groups)
+
+
 if __name__ == "__main__":
-    if len(sys.argv) < 2:
-        sys.exit(__doc__)
-    main([pathlib.Path(name) for name in sys.argv[1:]])
+    main(command_line().parse_args())

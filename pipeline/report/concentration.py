@@ -1,12 +1,13 @@
 """Concentration in the shrinking droplet, particles beside the continuum model: Fig. 5 of Vasquez Giuliano et al. (2022).
 
-    concentration.py DRYER FOLDER PECLET=GRANULE.h5,... [PECLET=...]      (writes FOLDER/figure5.csv and figure5.svg)
-
 Two comparisons for each theta, both with the same estimator on both sides:
 raw         as the paper draws it: r/R(t), against the continuum of points that reach R(t);
 accessible  r over the radius that centres reach, against the continuum of a droplet whose wall is there.
 Estimators: that of the paper (a particle with the 20 before and the 20 after it) and ten shells of equal volume. Concentrations
 are over that of all particles spread evenly over the volume compared, times (1 - theta)^(-3/2): Gamma of the paper.
+Beside FILE.md are written FILE.csv and FILE.svg. The Peclet number is that of the granules.
+
+    concentration.py compact=compact-1.h5,compact-2.h5 intermediate=intermediate-1.h5 --dryer build/release/bin/dryer -o figure5.md
 """
 
 import csv
@@ -21,6 +22,7 @@ import tempfile
 import h5py
 import numpy
 
+import arguments
 import scene
 from figure import LINES, pyplot, save
 from table import print_markdown, write_csv
@@ -50,12 +52,13 @@ def liquid(of):
 
 
 def read(names):
-    """{theta: (radius of the droplet, centres' distances of each granule)}, in metres; radius of the particles; what liquid() gives."""
+    """{theta: (radius of the droplet, centres' distances of each granule)}, in metres; Peclet number; radius of the particles, m; what liquid() gives."""
     found, kinds = {}, set()
     for name in names:
         with h5py.File(name) as file:
             a = 1e-9 * file["particles/all/radius"][0]
-            kinds.add((a, *liquid(scene.resolved(file))))
+            of = scene.resolved(file)
+            kinds.add((scene.number(of, "droplet", "peclet"), a, *liquid(of)))
             R = 1e-9 * file["observables/droplet_radius/value"][:]
             theta = 1 - (R / R[0]) ** 2
             for wanted in THETA:
@@ -65,7 +68,7 @@ def read(names):
                 r = 1e-9 * numpy.linalg.norm(file["particles/all/position/value"][frame], axis=1)
                 found.setdefault(wanted, (R[frame], []))[1].append(numpy.sort(r))
     if len(kinds) > 1:
-        sys.exit(f"{names[0]} and others: particles or liquids differ")
+        sys.exit(f"{names[0]} and others: Peclet numbers, particles or liquids differ")
     return found, *kinds.pop()
 
 
@@ -116,8 +119,7 @@ def compare(x, rho, gamma, theta):
     return rows
 
 
-def comparisons(dryer, peclet, names):
-    granules, a, tension, temperature = read(names)
+def comparisons(dryer, granules, peclet, a, tension, temperature):
     R0 = granules[0.0][0]
     reached0 = R0 - a  # the start is fully immersed
     for theta, (R, radii) in granules.items():
@@ -161,16 +163,29 @@ def draw(found, out):
     save(figure, out)
 
 
-def main(dryer, folder, populations):
-    found, folder = {}, pathlib.Path(folder)
-    for population in populations:
-        peclet, _, names = population.partition("=")
-        found[float(peclet)] = {(theta, kind): rows
-                                for theta, kind, rows in comparisons(dryer, float(peclet), names.split(","))}
-    write_csv(folder / "figure5.csv", ["peclet", "theta", "radius", "estimator", "place", "gamma", "standard_error", "continuum"],
+def command_line():
+    parser = arguments.parser(__doc__, "the table", "FILE.md")
+    parser.add_argument("--dryer", type=arguments.file, required=True, help="the program, which computes the continuum model")
+    arguments.add_groups(parser, "granules of one Peclet number each, files of dryer")
+    return parser
+
+
+def main(options):
+    found = {}
+    for name, files in options.groups.items():
+        granules, peclet, *rest = read(files)
+        if peclet in found:
+            sys.exit(f"{name}: another group has Pe = {peclet:g}, too")
+        found[peclet] = {(theta, kind): rows for theta, kind, rows in comparisons(options.dryer, granules, peclet, *rest)}
+    write_csv(options.out.with_suffix(".csv"), ["peclet", "theta", "radius", "estimator", "place", "gamma", "standard_error", "continuum"],
               ([peclet, theta, kind, name, *(f"{v:.5g}" for v in rest)] for peclet, sets in found.items()
                for (theta, kind), rows in sets.items() for name, *rest in rows))
-    draw(found, folder / "figure5.svg")
+    draw(found, options.out.with_suffix(".svg"))
+    with arguments.printing_to(options.out):
+        show(found)
+
+
+def show(found):
     cells = lambda relative, errors: [f"{100 * relative:.1f} %", f"{errors:.1f}"]
     print_markdown(["Pe", "theta", "radius", "41 neighbours: rms difference", "in standard errors", "ten shells", "in standard errors"],
                    [[f"{peclet:g}", f"{theta:g}", kind, *cells(*deviation(rows, "neighbours")), *cells(*deviation(rows, "shells"))]
@@ -179,6 +194,4 @@ def main(dryer, folder, populations):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) < 4:
-        sys.exit(__doc__)
-    main(sys.argv[1], sys.argv[2], sys.argv[3:])
+    main(command_line().parse_args())

@@ -1,13 +1,14 @@
-"""Concentration profiles of the continuum model (Fig. 5 of Vasquez Giuliano et al. 2022, dashed lines) as SVG:
+"""Concentration profiles of the continuum model as SVG (Fig. 5 of Vasquez Giuliano et al. 2022, dashed lines).
 
-    continuum.py --profile PECLET FILE.csv [--profile PECLET FILE.csv ...] -o OUT.svg
+One panel for each file that `dryer continuum` writes; NAME is its Peclet number.
 
-One panel for each Peclet number; FILE.csv is what `dryer continuum` writes.
+    continuum.py 1=continuum-1.csv 10=continuum-10.csv -o continuum.svg
 """
 
-import argparse
 import csv
+import sys
 
+import arguments
 from figure import LINES, pyplot, save
 
 
@@ -24,7 +25,9 @@ def read(name):
 
 def draw(panels, out):
     figure, axes = pyplot.subplots(1, len(panels), figsize=(3.2 * len(panels), 2.8), squeeze=False, layout="constrained")
-    for axis, (peclet, name) in zip(axes[0], panels):
+    for axis, (peclet, (name, *more)) in zip(axes[0], panels.items()):
+        if more:
+            sys.exit(f"{peclet}: one file for each Peclet number, please")
         for i, (theta, (rho, gamma)) in enumerate(read(name).items()):
             colour, dashes = LINES[i % len(LINES)]
             axis.plot(rho, gamma, color=colour, linestyle=dashes, label=f"θ = {theta}")
@@ -33,9 +36,15 @@ def draw(panels, out):
     save(figure, out)
 
 
+def command_line():
+    parser = arguments.parser(__doc__, "the figure", "FILE.svg")
+    arguments.add_groups(parser, "Peclet numbers, each with its file")
+    return parser
+
+
+def main(options):
+    draw(options.groups, options.out)
+
+
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--profile", nargs=2, metavar=("PECLET", "FILE.csv"), action="append", required=True)
-    parser.add_argument("-o", dest="out", metavar="OUT.svg", required=True)
-    arguments = parser.parse_args()
-    draw(arguments.profile, arguments.out)
+    main(command_line().parse_args())

@@ -1,16 +1,15 @@
 """Radial position of the particles, cumulative: Fig. 3 of Vasquez Giuliano et al. (2022).
 
-    distribution.py FOLDER NAME=GRANULE.h5,... [NAME=...]      (writes FOLDER/figure3-NAME.csv and FOLDER/figure3.svg)
-
 Radius in nm from the centre of mass against the fraction of particles within it: mean over the granules, lowest and highest.
-"""
+Beside FILE.svg is written FILE-NAME.csv for each group.
 
-import pathlib
-import sys
+    distribution.py hollow=hollow-1.h5,hollow-2.h5 compact=compact-1.h5 -o figure3.svg
+"""
 
 import h5py
 import numpy
 
+import arguments
 import published
 from figure import LINES, pyplot, save
 from table import write_csv
@@ -30,22 +29,24 @@ def distribution(names):
     return grid, within.mean(axis=0), within.min(axis=0), within.max(axis=0)
 
 
-def main(folder, populations):
-    folder = pathlib.Path(folder)
+def command_line():
+    parser = arguments.parser(__doc__, "the figure", "FILE.svg")
+    arguments.add_groups(parser, "rows of Table 2, each with its granules, files of dryer", names=published.GRANULES)
+    return parser
+
+
+def main(options):
     figure, axes = pyplot.subplots(figsize=(4.2, 3.2), layout="constrained")
-    for (colour, dashes), population in zip(LINES, populations):
-        name, _, files = population.partition("=")
-        grid, mean, lowest, highest = distribution(files.split(","))
-        write_csv(folder / f"figure3-{name}.csv", ["radius_nm", "mean", "lowest", "highest"],
+    for (colour, dashes), (name, files) in zip(LINES, options.groups.items()):
+        grid, mean, lowest, highest = distribution(files)
+        write_csv(options.out.with_name(f"{options.out.stem}-{name}.csv"), ["radius_nm", "mean", "lowest", "highest"],
                   ([f"{x:g}", f"{m:.4f}", f"{a:.4f}", f"{b:.4f}"] for x, m, a, b in zip(grid, mean, lowest, highest)))
         axes.plot(grid, mean, color=colour, linestyle=dashes, label=published.GRANULES[name]["title"])
         axes.fill_between(grid, lowest, highest, color=colour, alpha=0.2, linewidth=0)
     axes.set(xlabel="distance from the centre of mass, nm", ylabel="fraction of particles within", xlim=(0, None), ylim=(0, 1.02))
     axes.legend(frameon=False)
-    save(figure, folder / "figure3.svg")
+    save(figure, options.out)
 
 
 if __name__ == "__main__":
-    if len(sys.argv) < 3:
-        sys.exit(__doc__)
-    main(sys.argv[1], sys.argv[2:])
+    main(command_line().parse_args())

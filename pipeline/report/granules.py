@@ -1,6 +1,9 @@
-"""Table of granules beside Table 2 of Vasquez Giuliano et al. (2022): granules.py ROW REPORT.json... [-- ROW ...]
+"""Table of granules beside Table 2 of Vasquez Giuliano et al. (2022).
 
-ROW is hollow (Pe -> infinity), intermediate (Pe = 10) or compact (Pe = 1)."""
+Its rows are hollow (Pe -> infinity), intermediate (Pe = 10) and compact (Pe = 1).
+
+    granules.py hollow=hollow-1.json,hollow-2.json compact=compact-1.json -o granules.txt
+"""
 
 import json
 import math
@@ -9,6 +12,7 @@ import statistics
 import sys
 import textwrap
 
+import arguments
 import published
 from interval import half_width
 
@@ -118,22 +122,8 @@ def read(name):
     return report
 
 
-def groups(arguments):
-    """[(row, [report])] from ROW FILE... -- ROW FILE..."""
-    out = []
-    while arguments:
-        end = arguments.index("--") if "--" in arguments else len(arguments)
-        row, names, arguments = arguments[0], arguments[1:end], arguments[end + 1:]
-        if row not in published.GRANULES or not names:
-            sys.exit(__doc__)
-        out.append((row, [read(name) for name in names]))
-    return out
-
-
-def main(arguments):
-    if not arguments:
-        sys.exit(__doc__)
-    for row, reports in groups(arguments):
+def show(rows):
+    for row, reports in rows.items():
         granules = "granule" if len(reports) == 1 else "granules"
         program = f"{reports[0]['program']} {reports[0]['version']}"
         print(f"{len(reports)} {row} {granules} ({published.GRANULES[row]['title']}), {program}, {reports[0]['scene']}\n")
@@ -144,5 +134,17 @@ def main(arguments):
           "    among ours, in spreads from the mean.")
 
 
+def command_line():
+    parser = arguments.parser(__doc__, "the table (default: printed)", required=False)
+    arguments.add_groups(parser, "rows of Table 2, each with its reports of dryer", names=published.GRANULES)
+    return parser
+
+
+def main(options):
+    rows = {row: [read(name) for name in names] for row, names in options.groups.items()}
+    with arguments.printing_to(options.out):
+        show(rows)
+
+
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    main(command_line().parse_args())

@@ -4,9 +4,10 @@
 Each run is repeated and the least CPU time taken; runs of the two levels alternate. The error is that which the report states, else what
 its text says; "d_c or stress" shows what the numbers of the levels make of the same run: with noise runs part, their difference is then of
 two realisations, not an error.
+
+    levels.py --runs hollow "Pe = 10" --repeat 3
 """
 
-import argparse
 import datetime
 import json
 import os
@@ -15,6 +16,7 @@ import subprocess
 import sys
 import tempfile
 
+import arguments
 from table import print_markdown
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -36,13 +38,13 @@ RUNS = {
 }
 
 
-def arguments():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+def command_line():
+    parser = arguments.parser(__doc__, "the table (default: printed)", required=False)
     parser.add_argument("--levels", nargs="+", choices=LEVELS, default=LEVELS, help="default: those that this processor runs")
     parser.add_argument("--runs", nargs="+", choices=RUNS, default=list(RUNS), help="default: all")
     parser.add_argument("--repeat", type=int, default=2, help="times that each run is done (default: %(default)s)")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="of the compiler (default: all processors)")
-    return parser.parse_args()
+    return parser
 
 
 def output(*command):
@@ -102,8 +104,7 @@ def row(name, levels, repeat, scratch):
             error(reports[0][0]), ", ".join(f"{report['results'][key]:.5g}" for report in reports[0]) if key else ""]
 
 
-def main():
-    options = arguments()
+def main(options):
     model, flags = processor()
     levels = [level for level in LEVELS if level in options.levels and NEEDED[level] <= flags]
     if not levels:
@@ -112,12 +113,12 @@ def main():
         build(level, options.jobs)
     commit = output("git", "describe", "--always", "--dirty").strip()
     command = "make -C pipeline bench-levels"
-    print(f"{command}: commit {commit}, {datetime.date.today()}, {model}, load {os.getloadavg()[0]:.1f}\n")
-    with tempfile.TemporaryDirectory(prefix="bench-levels-") as scratch:
+    with tempfile.TemporaryDirectory(prefix="bench-levels-") as scratch, arguments.printing_to(options.out):
+        print(f"{command}: commit {commit}, {datetime.date.today()}, {model}, load {os.getloadavg()[0]:.1f}\n")
         print_markdown(["run", *(f"CPU s, {level}" for level in levels), *(["ratio"] if len(levels) > 1 else []), "stated error",
                         "d_c nm or stress Pa"],
                        [row(name, levels, options.repeat, pathlib.Path(scratch)) for name in options.runs])
 
 
 if __name__ == "__main__":
-    main()
+    main(command_line().parse_args())

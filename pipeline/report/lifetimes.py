@@ -1,15 +1,14 @@
 """Granules against the lifetime of the droplet: Table 3 and Fig. 4 of Vasquez Giuliano et al. (2022), and beyond.
 
-    lifetimes.py FOLDER REPORT.json...        (writes FOLDER/figure4.csv and FOLDER/figure4.svg)
+Lifetime and integrator are those of the reports. Beside FILE.md are written FILE.csv and FILE.svg, which is Fig. 4.
 
-Each report is one of dryer; those of the inertial integrator have "inertial" in their name. Prints the table.
+    lifetimes.py overdamped-3ms-1.json overdamped-3ms-2.json overdamped-25ms-1.json overdamped-25ms-2.json -o table3.md
 """
 
 import json
-import pathlib
 import statistics
-import sys
 
+import arguments
 from figure import BLUE, ORANGE, pyplot, save
 from interval import half_width
 from table import print_markdown, write_records
@@ -18,11 +17,11 @@ QUANTITIES = [("d_c_um", "d_c, um", "{:.2f}"), ("h_c_um", "h_c, um", "{:.2f}"), 
               ("contacts", "contacts", "{:.1f}"), ("fragments", "fragments", "{:.1f}")]
 
 
-def read(name):
-    report = json.loads(pathlib.Path(name).read_text())
+def read(path):
+    report = json.loads(path.read_text())
     r = report["results"]
     d_c = 1e-3 * r["d_c_nm"]
-    return {"lifetime_ms": 1e3 * r["inputs"]["lifetime_s"], "integrator": "inertial" if "inertial" in name else "overdamped",
+    return {"lifetime_ms": 1e3 * r["inputs"]["lifetime_s"], "integrator": report["inputs"]["integrator"]["method"],
             "d_c_um": d_c, "h_c_um": d_c * r["h_c_over_d_c"], "h_c_over_d_c": r["h_c_over_d_c"],
             "contacts": r["contacts"], "fragments": r["fragments"], "cpu_s": report["cpu_s"],
             "limit": r["inputs"]["capillary_speed_limit_m_per_s"], "k": r["inputs"]["evaporation_constant_m2_per_s"]}
@@ -66,15 +65,19 @@ def draw(table, out):
     save(figure, out)
 
 
-def main(folder, names):
-    table = list(rows([read(name) for name in names]))
-    folder = pathlib.Path(folder)
-    write_records(folder / "figure4.csv", table)
-    draw(table, folder / "figure4.svg")
-    show(table)
+def command_line():
+    parser = arguments.parser(__doc__, "the table", "FILE.md")
+    arguments.add_files(parser, "reports of dryer, two or more for each lifetime and integrator", "REPORT.json")
+    return parser
+
+
+def main(options):
+    table = list(rows([read(path) for path in options.files]))
+    write_records(options.out.with_suffix(".csv"), table)
+    draw(table, options.out.with_suffix(".svg"))
+    with arguments.printing_to(options.out):
+        show(table)
 
 
 if __name__ == "__main__":
-    if len(sys.argv) < 3:
-        sys.exit(__doc__)
-    main(sys.argv[1], sys.argv[2:])
+    main(command_line().parse_args())

@@ -1,18 +1,18 @@
-"""How must I dry to get a granule that breaks at this stress? Granules over Peclet number, number and solids:
+"""How must I dry to get a granule that breaks at this stress? Granules over Peclet number, number and solids.
 
-    map.py FOLDER PE_N_R0_SEED...      (FOLDER/STEM.json of dryer, FOLDER/STEM-load.json of rigidstress; writes map.csv, map.svg)
+The table and, for a few stresses, which Peclet number gives them. Beside FILE.md are written FILE.csv and FILE.svg. Beside every report
+NAME.json of dryer lies that of rigidstress, NAME-load.json. What was dried is read from the reports.
 
-Prints the table and, for a few stresses, which Peclet number gives them.
+    map.py 1_85_215_1.json 10_85_215_1.json 100_85_215_1.json -o map.md
 """
 
 import json
 import math
-import pathlib
 import statistics
-import sys
 
 from matplotlib.ticker import NullLocator
 
+import arguments
 from figure import BLACK, BLUE, GREEN, ORANGE, PURPLE, pyplot, save
 from table import print_markdown, write_records
 
@@ -22,9 +22,9 @@ WATER = 1e-3  # Pa s
 STRESSES = (2000, 3000, 4000, 5000, 6000, 8000)  # Pa
 
 
-def read(folder, stem):
-    dried = json.loads((folder / f"{stem}.json").read_text())
-    load = json.loads((folder / f"{stem}-load.json").read_text())["results"]
+def read(path):
+    dried = json.loads(path.read_text())
+    load = json.loads(path.with_name(path.stem + "-load.json").read_text())["results"]
     r = dried["results"]
     # The flow stress at which the weakest contact gives way in the orientation to which a granule settles in elongation.
     return {"peclet": float(f"{r['inputs']['peclet']:.9g}"), "number": r["inputs"]["number"], "solids": r["inputs"]["solids_fraction"],
@@ -132,15 +132,19 @@ def draw(table, out):
     save(figure, out)
 
 
-def main(folder, stems):
-    folder = pathlib.Path(folder)
-    table = list(rows([read(folder, stem) for stem in stems]))
-    write_records(folder / "map.csv", table)
-    draw(table, folder / "map.svg")
-    show(table)
+def command_line():
+    parser = arguments.parser(__doc__, "the table", "FILE.md")
+    arguments.add_files(parser, "reports of dryer", "REPORT.json")
+    return parser
+
+
+def main(options):
+    table = list(rows([read(path) for path in options.files]))
+    write_records(options.out.with_suffix(".csv"), table)
+    draw(table, options.out.with_suffix(".svg"))
+    with arguments.printing_to(options.out):
+        show(table)
 
 
 if __name__ == "__main__":
-    if len(sys.argv) < 3:
-        sys.exit(__doc__)
-    main(sys.argv[1], sys.argv[2:])
+    main(command_line().parse_args())

@@ -1,8 +1,8 @@
-"""One page with every table and figure of Vasquez Giuliano et al. (2022), ours beside theirs:
+"""One page with every table and figure of Vasquez Giuliano et al. (2022), ours beside theirs.
 
-    paper.py RESULTS OUT.html BREAKUP,... NAME=SEED,...
+Tables and figures that other scripts wrote are taken from the folder of FILE.html; all of them become part of the page.
 
-BREAKUP: granules that were broken, as KIND-SEED; NAME: hollow, intermediate, compact, adhesive. Puts together what the other targets left in RESULTS, tables and figures; both are part of the page.
+    paper.py hollow=hollow-1.json,hollow-2.json adhesive=adhesive-1.json --broken hollow=breakup/hollow-1.json -o paper.html
 """
 
 import base64
@@ -13,8 +13,8 @@ import math
 import pathlib
 import re
 import statistics
-import sys
 
+import arguments
 import breakups
 import published
 from interval import half_width
@@ -92,14 +92,18 @@ def figure(path, caption):
 
 
 class Page:
-    def __init__(self, results, seeds, broken):
-        self.results, self.seeds, self.broken, self.parts = results, seeds, broken, []
+    def __init__(self, results, dried, broken):
+        """dried, broken: {kind: [report]}, reports by dryer and by breaker."""
+        self.results, self.dried, self.broken, self.parts = results, dried, broken, []
 
     def add(self, *parts):
         self.parts += parts
 
     def granules(self, name):
-        return [load(self.results / f"{name}-{seed}.json") for seed in self.seeds.get(name, [])]
+        return [load(path) for path in self.dried.get(name, [])]
+
+    def all_broken(self):
+        return [path for paths in self.broken.values() for path in paths]
 
     def table2(self):
         rows = []
@@ -119,14 +123,13 @@ class Page:
                  figure(self.results / "figure3.svg", "Fig. 3. Lines: mean over granules; bands: lowest and highest."),
                  figure(self.results / "drying-hollow.png", "Drying at Pe → ∞."),
                  *(figure(path, "Drying at a finite Péclet number.") for name in ("compact", "intermediate")
-                   if name in self.seeds and (path := self.results / f"drying-{name}.png").exists()))
+                   if name in self.dried and (path := self.results / f"drying-{name}.png").exists()))
 
     def difference(self):
         ours, held = ([run["results"]["coordination"] for run in self.granules(name)] for name in ("compact", "adhesive"))
         if not ours or not held:
             return
-        broken = [breakups.load(path) for name in self.broken if name.startswith("adhesive")
-                  and (path := self.results / "breakup" / f"{name}.json").exists()]
+        broken = [breakups.load(path) for path in self.broken.get("adhesive", [])]
         ends = "".join(f" One of them breaks {found['results']['breakage']}, at {found['results']['critical_stress_pa'] / rigid:.2f} "
                        "of its rigid prediction." for found, rigid in broken if rigid is not None)
         self.add(f"<p>Coordination at Pe = 1: {statistics.fmean(ours):.2f}, the paper {published.GRANULES['compact']['coordination']}. "
@@ -149,9 +152,9 @@ class Page:
         folder = self.results / "breakup"
         self.add("<h2>Section 3.3, Figs 6 and 7: breakup of flexible granules</h2>", from_markdown(folder / "paper.md"),
                  "<p>Changes are those at 1 % less stress. +-: difference to doubled tolerance.</p>")
-        for name in self.broken:
-            self.add(figure(folder / f"{name}-strip.png", f"Fig. 6, {name}: snapshots at growing flow stress."),
-                     figure(folder / f"{name}-course.svg", f"Fig. 7, {name}."))
+        for path in self.all_broken():
+            self.add(figure(path.with_name(f"{path.stem}-strip.png"), f"Fig. 6, {path.stem}: snapshots at growing flow stress."),
+                     figure(path.with_name(f"{path.stem}-course.svg"), f"Fig. 7, {path.stem}."))
 
     def effort(self):
         rows = []
@@ -163,10 +166,10 @@ class Page:
                 error = stored_error(name) if None in errors else f"d_c {100 * max(errors):.2g} %"
                 rows.append([label, f"{published.DRYING_HOURS[name]} h", f"{cpu:.3g} s", f"{wall:.3g} s",
                              f"{published.DRYING_HOURS[name] * 3600 / cpu:.2g}", error])
-        for name in self.broken:
-            run = load(self.results / "breakup" / f"{name}.json")
+        for path in self.all_broken():
+            run = load(path)
             cpu, error = run["cpu_s"], run["errors"]["critical_stress_relative"]["value"]
-            rows.append([f"breakup, {name}", f"{published.BREAKUP_HOURS} h on {published.BREAKUP_THREADS} threads", f"{cpu:.3g} s",
+            rows.append([f"breakup, {path.stem}", f"{published.BREAKUP_HOURS} h on {published.BREAKUP_THREADS} threads", f"{cpu:.3g} s",
                          f"{run['wall_s']:.3g} s", f"{published.BREAKUP_HOURS * published.BREAKUP_THREADS * 3600 / cpu:.2g}",
                          "not estimated" if error is None else f"critical stress {100 * error:.1g} %"])
         rigid = from_csv(self.results / "strength/table.csv")
@@ -182,10 +185,16 @@ class Page:
                  "<p>The paper: Intel Xeon E5-2630 v4. Ours: means of the runs of this page, side by side on the cores of this machine.</p>")
 
 
-def main(results, out, broken, populations):
-    seeds = {name: [seed for seed in listed.split(",") if seed] for name, _, listed in (p.partition("=") for p in populations)}
-    results, out = pathlib.Path(results), pathlib.Path(out)
-    page = Page(results, seeds, broken)
+def command_line():
+    parser = arguments.parser(__doc__, "the page", "FILE.html")
+    arguments.add_groups(parser, "granules with their reports of dryer", names=TITLES)
+    arguments.add_groups(parser, "those that were broken with their reports of breaker", "--broken", TITLES)
+    return parser
+
+
+def main(options):
+    out, results = options.out, options.out.parent
+    page = Page(results, options.groups, options.broken)
     page.add("<h1>Micromechanics and strength of agglomerates produced by spray drying, computed again</h1>",
              "<p>Every table and figure of Vasquez Giuliano, Buffo, Vanni and Frungieri (2022), JCIS Open 8, 100068, by Crumble, with our "
              "numbers and their errors beside the paper's.</p>",
@@ -193,7 +202,7 @@ def main(results, out, broken, populations):
     page.table2()
     page.difference()
     page.add("<h2>Table 3 and Fig. 4: the lifetime at high Péclet numbers</h2>", from_markdown(results / "lifetime/table3.md"),
-             figure(results / "lifetime/figure4.svg", "Fig. 4. Bars: standard deviation between granules."),
+             figure(results / "lifetime/table3.svg", "Fig. 4. Bars: standard deviation between granules."),
              "<h2>Fig. 5: particles and the continuum model</h2>", from_markdown(results / "figure5.md"),
              figure(results / "figure5.svg", "Fig. 5. Dashed: continuum, through the same estimator; bands and bars: two standard errors. Above as the "
                     "paper draws it, below on the radius that centres reach. Centres stay about 0.9 a inside the surface, "
@@ -209,6 +218,4 @@ def main(results, out, broken, populations):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) < 5:
-        sys.exit(__doc__)
-    main(sys.argv[1], sys.argv[2], sys.argv[3].split(","), sys.argv[4:])
+    main(command_line().parse_args())

@@ -1,13 +1,12 @@
 """Agglomerates as POV-Ray sees them, side by side at one scale with a bar.
 
-    picture.py [--cut] [--count N] [--width PIXELS] OUT.png FILE.h5 [FILE.h5...]
+One file: five of its frames, spaced evenly in the radius of the droplet where it has one. Several, or --cut: the last frame of each.
+Spheres are coloured by their distance from the centre of mass (bright: farthest); the droplet is drawn as glass.
 
-One file: N of its frames, spaced evenly in the radius of the droplet where it has one. Several: the last frame of each.
---cut also shows each with its front half taken away. Spheres are coloured by their distance from the centre of mass (bright:
-farthest); the droplet is drawn as glass.
+    picture.py hollow-1.h5 -o drying-hollow.png
+    picture.py --cut hollow-1.h5 compact-1.h5 -o granules.png
 """
 
-import argparse
 import os
 import pathlib
 import subprocess
@@ -17,6 +16,9 @@ import h5py
 import matplotlib
 import numpy
 
+import arguments
+
+FRAMES, WIDTH = 5, 1200  # of one file; pixels
 COLOURS = matplotlib.colormaps["cividis"]
 # y points away from the camera, z up, as in the other pictures.
 SCENE = """#version 3.7;
@@ -87,11 +89,11 @@ def scene(panels, unit):
     return head + "\n".join(lines) + "\n", at / high
 
 
-def render(text, aspect, width, out):
+def render(text, aspect, out):
     with tempfile.TemporaryDirectory() as folder:
         source, image = pathlib.Path(folder) / "scene.pov", pathlib.Path(folder) / "scene.png"
         source.write_text(text)
-        done = subprocess.run(["povray", "-D", "-GA", f"+W{width}", f"+H{round(width / aspect)}", "+A0.2", "+WT1",
+        done = subprocess.run(["povray", "-D", "-GA", f"+W{WIDTH}", f"+H{round(WIDTH / aspect)}", "+A0.2", "+WT1",
                                f"+I{source}", f"+O{image}"], capture_output=True, text=True)
         if done.returncode != 0:
             raise SystemExit(f"povray: {done.stderr.strip().splitlines()[-1]}")
@@ -101,24 +103,24 @@ def render(text, aspect, width, out):
     os.replace(temporary, out)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--cut", action="store_true")
-    parser.add_argument("--count", type=int, default=5)
-    parser.add_argument("--width", type=int, default=1200)
-    parser.add_argument("out", type=pathlib.Path)
-    parser.add_argument("files", nargs="+")
-    arguments = parser.parse_args()
-    one = len(arguments.files) == 1
+def command_line():
+    parser = arguments.parser(__doc__, "the picture", "FILE.png")
+    parser.add_argument("--cut", action="store_true", help="show each with its front half taken away, too")
+    arguments.add_files(parser, "of any program", "AGGLOMERATE.h5")
+    return parser
+
+
+def main(options):
+    one = len(options.files) == 1
     panels, unit = [], 1.0
-    for name in arguments.files:
-        found, unit = frames(name, arguments.count if one and not arguments.cut else 1)
+    for name in options.files:
+        found, unit = frames(name, FRAMES if one and not options.cut else 1)
         for panel in found:
             panels.append((*panel, False))
-            if arguments.cut:
+            if options.cut:
                 panels.append((*panel, True))
-    render(*scene(panels, unit), arguments.width, arguments.out)
+    render(*scene(panels, unit), options.out)
 
 
 if __name__ == "__main__":
-    main()
+    main(command_line().parse_args())

@@ -1,13 +1,15 @@
-"""The scene with which rigidstress loads the same granule in the same fluid as a breakup did: radius, material, bonds,
-hydrodynamics and flow are those of its file.
+"""The scene with which rigidstress loads the same granule in the same fluid as a breakup did.
 
-    rigid_scene.py BREAKUP.h5 > RIGID.toml
+Radius, material, bonds, hydrodynamics and flow are those of its file.
+
+    rigid_scene.py results/hollow-1-break.h5 -o results/hollow-1-break-rigid.toml
 """
 import json
 import sys
 
 import h5py
 
+import arguments
 import scene
 
 TAKEN = {"particle": ("radius", "fragments", "largest_gap"), "material": None, "fluid": ("viscosity",),
@@ -29,6 +31,18 @@ def rigid(of):
     return "\n".join(lines) + "\n"
 
 
+def command_line():
+    parser = arguments.parser(__doc__, "the scene (default: printed)", "FILE.toml", required=False)
+    parser.add_argument("breakup", type=arguments.file, metavar="BREAKUP.h5", help="of breaker")
+    return parser
+
+
+def main(options):
+    with h5py.File(options.breakup) as breakup:
+        text = rigid(scene.resolved(breakup))
+    with arguments.printing_to(options.out):
+        print(text, end="")
+
+
 if __name__ == "__main__":
-    with h5py.File(sys.argv[1]) as breakup:
-        print(rigid(scene.resolved(breakup)), end="")
+    main(command_line().parse_args())

@@ -1,19 +1,24 @@
 #!/usr/bin/python3
-"""Time, memory and morphology against the number of particles: scale.py DRYER SCENE FOLDER N...
+"""Time, memory and morphology against the number of particles.
 
 Dries each droplet on all cores; up to 20,000 particles also on one thread, for the speed-up and to see that the granules are the same to the
 bit. Cost: wall time on all cores a particle and evaluation, of awake particles. Growth: exponent of the wall time of an evaluation of the
-droplet as it is, idle particles and all, between one number and the next; on one thread where both were dried on it. Bytes: peak memory of the process above that of a droplet of ten."""
+droplet as it is, idle particles and all, between one number and the next; on one thread where both were dried on it. Bytes: peak memory of the
+process above that of a droplet of ten.
+
+    scale.py large.toml 1000 10000 --dryer build/release/bin/dryer --runs results/scale
+"""
 
 import hashlib
 import json
 import math
 import os
+import pathlib
 import subprocess
-import sys
 
 import h5py
 
+import arguments
 from table import print_markdown
 
 RADIUS_OF_100000 = 32e-6  # m
@@ -64,13 +69,22 @@ def rows(dryer, scene, folder, numbers):
         before = (number, step)
 
 
-def main():
-    dryer, scene, folder, *numbers = sys.argv[1:]
+def command_line():
+    parser = arguments.parser(__doc__, "the table (default: printed)", required=False)
+    parser.add_argument("--dryer", type=arguments.file, required=True, help="the program")
+    parser.add_argument("--runs", type=pathlib.Path, metavar="FOLDER", required=True, help="where the runs go; those that are there are not repeated")
+    parser.add_argument("scene", type=arguments.file, metavar="SCENE.toml")
+    parser.add_argument("numbers", type=int, nargs="+", metavar="N", help="of particles")
+    return parser
+
+
+def main(options):
     heading = ["N", "evaluations", "idle %", f"wall s, {os.cpu_count()} threads", "CPU s", "wall s, 1 thread", "speed-up",
                "same bits", "ns a particle and evaluation", "growth", "bytes a particle", "d_c um", "h_c/d_c", "contacts",
                "fragments"]
-    print_markdown(heading, rows(dryer, scene, folder, [int(number) for number in numbers]))
+    with arguments.printing_to(options.out):
+        print_markdown(heading, rows(options.dryer, options.scene, options.runs, options.numbers))
 
 
 if __name__ == "__main__":
-    main()
+    main(command_line().parse_args())

@@ -1,18 +1,19 @@
-"""Strength of populations, section 3.4 of Vasquez Giuliano et al. (2022): strength.py FOLDER NAME=REPORT.json,...
+"""Strength of populations, section 3.4 of Vasquez Giuliano et al. (2022).
 
-Each NAME is a population, its reports are those of rigidstress; beside every report lies its stress file. Prints the
-table and writes FOLDER/table.csv (which the page of the paper shows, too), FOLDER/fig8.csv (tension of every contact against its distance from the centre of
-mass, settled in elongation) and FOLDER/fig9.csv (N_max of the most loaded orbit against time, in shear).
+Beside every report FILE.json lies its stress file, FILE.h5. Beside FILE.txt are written FILE.csv (which the page of the paper shows, too),
+fig8.csv (tension of every contact against its distance from the centre of mass, settled in elongation) and fig9.csv (N_max of the most
+loaded orbit against time, in shear).
+
+    strength.py compact=compact-1.json,compact-2.json hollow=hollow-1.json,hollow-2.json -o table.txt
 """
 
 import json
 import math
-import pathlib
 import statistics
-import sys
 
 import h5py
 
+import arguments
 import published
 from interval import half_width
 from table import write_csv, write_records
@@ -62,12 +63,16 @@ def courses(name, path, result):
             [[name, path.stem, f"{t:.5g}", f"{n:.5g}"] for t, n in instants])
 
 
-def main(folder, populations):
-    folder = pathlib.Path(folder)
+def command_line():
+    parser = arguments.parser(__doc__, "the table", "FILE.txt")
+    arguments.add_groups(parser, "populations, each with its reports of rigidstress")
+    return parser
+
+
+def main(options):
+    folder = options.out.parent
     table, contacts, instants = [], [], []
-    for population in populations:
-        name, _, files = population.partition("=")
-        paths = [pathlib.Path(file) for file in files.split(",")]
+    for name, paths in options.groups.items():
         reports = [json.loads(path.read_text()) for path in paths]
         table += rows(name, reports)
         for path, report in zip(paths, reports):
@@ -76,7 +81,12 @@ def main(folder, populations):
             instants += of_instants
     write_csv(folder / "fig8.csv", ["population", "agglomerate", "radial_position_nm", "n_over_6_pi_mu_gamma_dot_a2"], contacts)
     write_csv(folder / "fig9.csv", ["population", "agglomerate", "time_gamma_dot", "n_max_over_6_pi_mu_gamma_dot_a2"], instants)
-    write_records(folder / "table.csv", table)
+    write_records(options.out.with_suffix(".csv"), table)
+    with arguments.printing_to(options.out):
+        show(table)
+
+
+def show(table):
     widths = {key: max(len(key), *(len(str(row[key])) for row in table)) for key in table[0]}
     print("N_max in 6 pi mu gamma_dot a^2 and the flow stress that breaks the most loaded contact: mean, standard")
     print("deviation and half of the 95 % interval of the mean; error: the largest that rigidstress states for one agglomerate.")
@@ -86,6 +96,4 @@ def main(folder, populations):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) < 3:
-        sys.exit(__doc__)
-    main(sys.argv[1], sys.argv[2:])
+    main(command_line().parse_args())

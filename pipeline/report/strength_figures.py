@@ -1,15 +1,14 @@
-"""Figs 8 and 9 of Vasquez Giuliano et al. (2022) from the tables that strength.py writes:
+"""Fig 8 or 9 of Vasquez Giuliano et al. (2022) from the table of its points that strength.py writes.
 
-    strength_figures.py FOLDER      (reads FOLDER/fig8.csv and fig9.csv, writes fig8.svg and fig9.svg)
+    strength_figures.py fig8.csv -o fig8.svg
 """
 
 import csv
-import pathlib
 import statistics
-import sys
 
 import numpy
 
+import arguments
 from figure import BLUE, GREEN, ORANGE, pyplot, save
 
 STYLES = {"compact": (ORANGE, "o"), "hollow": (BLUE, "s"), "adhesive": (GREEN, "^")}
@@ -17,14 +16,14 @@ UNIT = "/(6πμγ̇a²)"
 
 
 def read(path):
-    """{population: {agglomerate: array of two columns}} in the order of the file."""
+    """{population: {agglomerate: array of two columns}} in the order of the file; name of the first column."""
     found = {}
     with path.open(newline="") as file:
         rows = csv.reader(file)
-        next(rows)
+        abscissa = next(rows)[2]
         for population, agglomerate, x, y in rows:
             found.setdefault(population, {}).setdefault(agglomerate, []).append((float(x), float(y)))
-    return {p: {name: numpy.array(points) for name, points in of.items()} for p, of in found.items()}
+    return {p: {name: numpy.array(points) for name, points in of.items()} for p, of in found.items()}, abscissa
 
 
 def tension_against_radius(found, out):
@@ -55,9 +54,16 @@ def tension_in_time(found, out):
     save(figure, out)
 
 
+def command_line():
+    parser = arguments.parser(__doc__, "the figure", "FILE.svg")
+    parser.add_argument("points", type=arguments.file, metavar="POINTS.csv", help="fig8.csv or fig9.csv")
+    return parser
+
+
+def main(options):
+    found, abscissa = read(options.points)
+    (tension_against_radius if abscissa == "radial_position_nm" else tension_in_time)(found, options.out)
+
+
 if __name__ == "__main__":
-    if len(sys.argv) != 2:
-        sys.exit(__doc__)
-    folder = pathlib.Path(sys.argv[1])
-    tension_against_radius(read(folder / "fig8.csv"), folder / "fig8.svg")
-    tension_in_time(read(folder / "fig9.csv"), folder / "fig9.svg")
+    main(command_line().parse_args())

@@ -1,9 +1,7 @@
 #!/usr/bin/python3
 """Writes the pages ACCURACY.md: measured tables, each with its command, commit, date and processor.
 
-    accuracy.py [PAGE.TABLE | PAGE]...        (from anywhere; programs are those of build/release)
-
-A page is declared in accuracy/PAGE.toml. Only the tables that are named are measured again; all others stay as they are on the page,
+From anywhere; programs are those of build/release. A page is declared in accuracy/PAGE.toml. Only the tables that are named are measured again; all others stay as they are on the page,
 with the head under which they were measured. Without a name nothing is measured: texts are renewed and all tables are listed.
 
 A declaration has `page` (path of the file), `title`, `about`, `closing` (Markdown before and after the tables) and one [[table]] for each question:
@@ -20,6 +18,8 @@ A declaration has `page` (path of the file), `title`, `about`, `closing` (Markdo
                             the difference to the row that `reference` names, in per cent of it
     file, command, processor    a stored file that the command wrote; commit and date are those of its last change. Markdown and CSV as
                             they are, JSON by `columns`, one row a key
+
+    accuracy.py dryer.methods dryer.continuum
 """
 
 import csv
@@ -38,6 +38,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 DECLARED = pathlib.Path(__file__).resolve().parent / "accuracy"
 
 sys.path.insert(0, str(ROOT / "pipeline/report"))
+import arguments  # noqa: E402
 from table import markdown  # noqa: E402
 
 BEGIN, END = "<!-- measured: {} -->", "<!-- end -->"
@@ -214,5 +215,11 @@ def main(asked):
         write(path, render(name, declared, measured))
 
 
+def command_line():
+    parser = arguments.parser(__doc__)
+    parser.add_argument("asked", nargs="*", metavar="PAGE.TABLE", help="tables to measure again; PAGE means all of its tables")
+    return parser
+
+
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    main(command_line().parse_args().asked)

@@ -1,8 +1,8 @@
 """Which choice decides the granule at Pe = 10? One choice changed at a time, means over the same seeds.
 
-    /usr/bin/python3 pipeline/verify/brownian_choices.py [--seeds 1 2 3] [--jobs 2]
-
 The paper's compact granule (Pe = 1, one realisation) has coordination 4.16 and d_c = 132 nm.
+
+    brownian_choices.py --seeds 1 2 --jobs 2
 """
 
 from drying import runs
@@ -29,8 +29,11 @@ CHOICES = {
 }
 
 
-def main():
-    options = runs.arguments(__doc__.splitlines()[0], [1, 2, 3])
+def command_line():
+    return runs.arguments(__doc__, [1, 2, 3])
+
+
+def main(options):
     runs.require_programs()
     results = runs.run_all({name: settings for name, (_, settings) in CHOICES.items()}, options.seeds, options.jobs,
                            "pipeline/scenes/intermediate.toml")
@@ -59,4 +62,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    main(command_line().parse_args())

@@ -1,10 +1,10 @@
 """What softened contacts do to a granule that dries at Pe = 10 and 1: against full stiffness, means over seeds.
 
-    /usr/bin/python3 pipeline/verify/brownian_reference.py [--rows intermediate compact] [--seeds 1 2 ... 8] [--jobs 2]
-
 With noise, two runs of one seed part after a while, so only means can be compared: the difference of each quantity with
 its 95 % interval (Welch). Also writes pipeline/verify/brownian.json, from which the tables of `make -C pipeline` take the
 errors of their rows with Brownian motion.
+
+    brownian_reference.py --rows intermediate --seeds 1 2 3 --jobs 2
 """
 
 import json
@@ -63,8 +63,11 @@ def claims(row, default, full):
                f"within +-{100 * BOUNDS[row][key]:g} %", abs(found) + half < BOUNDS[row][key])
 
 
-def main():
-    options = runs.arguments(__doc__.splitlines()[0], [1, 2, 3, 4, 5, 6, 7, 8], rows=list(ROWS))
+def command_line():
+    return runs.arguments(__doc__, [1, 2, 3, 4, 5, 6, 7, 8], rows=list(ROWS))
+
+
+def main(options):
     runs.require_programs()
     stored = json.loads(STORED.read_text(encoding="utf-8"))
     table, judged = [], []
@@ -87,4 +90,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    main(command_line().parse_args())

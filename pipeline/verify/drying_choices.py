@@ -1,10 +1,10 @@
 """Which choice decides the contacts of a hollow granule? One choice changed at a time, the same random starts.
 
-    /usr/bin/python3 pipeline/verify/drying_choices.py [--seeds 1 2 3 4 5] [--jobs 2]
-
 Two independent codes differed by 14 % in contacts at the same limit of rolling (data/drying_codes.csv): LAMMPS with
 inertia and JKR (lifetime/10, gap < 0.02 a) had 174 +- 2, a sketch without inertia and with a softened contact (full
 lifetime, gap < 0.05 a) 201 +- 6. Each of these differences is a row here, and so is the resistance to twisting.
+
+    drying_choices.py --seeds 1 2 --jobs 2
 """
 
 import math
@@ -128,8 +128,11 @@ def claims(results):
     ]
 
 
-def main():
-    options = runs.arguments(__doc__.splitlines()[0], [1, 2, 3, 4, 5])
+def command_line():
+    return runs.arguments(__doc__, [1, 2, 3, 4, 5])
+
+
+def main(options):
     runs.require_programs()
     results = runs.run_all({name: choice[1] for name, choice in CHOICES.items()}, options.seeds, options.jobs)
     print(f"\n{runs.machine()}\n")
@@ -142,4 +145,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    main(command_line().parse_args())

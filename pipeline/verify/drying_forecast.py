@@ -1,11 +1,10 @@
 """What `dryer` says a run will take, against what it takes: varied scenes on one core, forecast first, then the run.
 
-    /usr/bin/python3 pipeline/verify/drying_forecast.py [--dryer build/release/bin/dryer] [--only NAME ...]
-
 The claim: at least nine of ten ranges hold the CPU seconds of the run, and none is missed by more than half.
+
+    drying_forecast.py --only hollow "Pe = 10"
 """
 
-import argparse
 import json
 import os
 import pathlib
@@ -16,7 +15,8 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "pipeline" / "report"))
-from table import print_markdown
+import arguments  # noqa: E402
+from table import print_markdown  # noqa: E402
 
 HOLLOW, INTERMEDIATE, COMPACT, LARGE, ADHESIVE, MICROMETRE = (
     str(ROOT / "pipeline" / "scenes" / f"{name}.toml")
@@ -79,15 +79,18 @@ def measure(dryer, scene, settings, folder):
     return *forecast(run.stderr), found["steps"], found["cpu_s"], found["results"]["particle_steps"]
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--dryer", default=str(ROOT / "build" / "release" / "bin" / "dryer"))
-    parser.add_argument("--only", nargs="*", default=None, help="names of scenes; all without")
-    options = parser.parse_args()
+def command_line():
+    parser = arguments.parser(__doc__)
+    parser.add_argument("--dryer", default=str(ROOT / "build" / "release" / "bin" / "dryer"), help="the program (default: of build/release)")
+    parser.add_argument("--only", nargs="+", choices=SCENES, metavar="NAME", default=list(SCENES), help="scenes (default: all)")
+    return parser
+
+
+def main(options):
     rows, held, far = [], 0, 0
     with tempfile.TemporaryDirectory() as folder:
         for name, (scene, settings) in SCENES.items():
-            if options.only and name not in options.only:
+            if name not in options.only:
                 continue
             steps, low, high, taken, cpu, particle_steps = measure(options.dryer, scene, settings, folder)
             held += low <= cpu <= high
@@ -104,4 +107,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    main(command_line().parse_args())

@@ -1,9 +1,9 @@
 """The fast integrator of the dryer against the reference: overdamped and inertial, same start, lifetime and law.
 
-    /usr/bin/python3 pipeline/verify/drying_reference.py [--seeds 1 2 3 4 5] [--jobs 2]
-
 Both at the full JKR stiffness and the defaults of pipeline/scenes/hollow.toml (N = 115, Pe -> infinity). An inertial
 run takes minutes.
+
+    drying_reference.py --seeds 1 2 --jobs 2
 """
 
 from drying import runs
@@ -38,8 +38,11 @@ def claims(results):
     return out
 
 
-def main():
-    options = runs.arguments(__doc__.splitlines()[0], [1, 2, 3, 4, 5])
+def command_line():
+    return runs.arguments(__doc__, [1, 2, 3, 4, 5])
+
+
+def main(options):
     runs.require_programs()
     cases = {f"reference_{method}": {"integrator.method": method} for method in METHODS}
     results = runs.run_all(cases, options.seeds, options.jobs)
@@ -58,4 +61,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    main(command_line().parse_args())

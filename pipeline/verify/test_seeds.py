@@ -1,10 +1,10 @@
 """How much room do the bounds of statistical tests leave? Runs them with 20 other sets of seeds.
 
-    /usr/bin/python3 pipeline/verify/test_seeds.py [--sets 20] [--jobs 2] [--build build/release] [--only Morphology]
-
 A test that depends on a seed compares with expect_within or expect_near of tests/seeds.hpp, which print the value and its bounds
 here. Of every comparison: mean and standard deviation over all sets, and the room: from the mean to the nearer bound, in standard
 deviations. Every set must pass, with at least ROOM of them where values scatter.
+
+    test_seeds.py --sets 5 --only Morphology
 """
 
 import collections
@@ -17,10 +17,10 @@ import re
 import statistics
 import subprocess
 import sys
-import argparse
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "pipeline" / "report"))
+import arguments  # noqa: E402
 from table import print_markdown, write_csv  # noqa: E402
 
 # Program and the tests in it that compare so.
@@ -75,13 +75,16 @@ def processor():
     return f"{names[0] if names else os.uname().machine}, {len(names)} processors"
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+def command_line():
+    parser = arguments.parser(__doc__)
     parser.add_argument("--sets", type=int, default=20, help="of seeds (default: %(default)s)")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="runs side by side (default: all processors)")
     parser.add_argument("--build", default="build/release", help="folder of the tests (default: %(default)s)")
     parser.add_argument("--only", default="", help="tests whose name contains this")
-    options = parser.parse_args()
+    return parser
+
+
+def main(options):
     build = ROOT / options.build
     if options.build == "build/release":
         subprocess.run(["cmake", "--preset", "release"], cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
@@ -117,4 +120,4 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(main(command_line().parse_args()))

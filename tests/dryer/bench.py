@@ -43,8 +43,8 @@ PEERS_LIFETIME = 2.1e-5  # a tenth of Table 2's, for all
 PEERS = {"lammps": ("LAMMPS granular/jkr", lammps, {}), "yade": ("Yade, linear contacts", yade, yade.SETTINGS)}
 
 
-def gamma_deviation(dryer, peclet, names):
-    rows = [rows for theta, kind, rows in concentration.comparisons(dryer, peclet, names) if theta == 0.4 and kind == "accessible"]
+def gamma_deviation(dryer, names):
+    rows = [rows for theta, kind, rows in concentration.comparisons(dryer, *concentration.read(names)) if theta == 0.4 and kind == "accessible"]
     return concentration.deviation(rows[0], "shells")[1]
 
 
@@ -71,7 +71,7 @@ def bench_row(name, seeds, jobs):
         overlap = max(run["overlap"] for run in mine)
         yield {"row": name, "case": case, "granules": len(seeds), "cpu_s": statistics.fmean(run["cpu_s"] for run in mine),
                "d_c_percent": d_c, "d_c_half": d_c_half, "contacts_percent": contacts, "contacts_half": contacts_half,
-               "overlap_over_a": overlap, "gamma": gamma_deviation(str(ROOT / runs.DRYER), peclet, files) if peclet else None}
+               "overlap_over_a": overlap, "gamma": gamma_deviation(str(ROOT / runs.DRYER), files) if peclet else None}
 
 
 def beside(peer, seeds, jobs):

@@ -1,10 +1,14 @@
-"""What the scripts of pipeline/report share, and that they take from a file what stands in it."""
+"""What the scripts of pipeline/report share, how they and those of pipeline/verify take their arguments, and what they take from a file."""
 
 import contextlib
 import importlib
 import io
+import json
 import math
+import os
 import pathlib
+import re
+import shlex
 import sys
 import tempfile
 import unittest
@@ -12,12 +16,17 @@ import unittest
 import h5py
 import numpy
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "pipeline/report"))
+PIPELINE = pathlib.Path(__file__).resolve().parents[2] / "pipeline"
+sys.path[:0] = [str(PIPELINE / "report"), str(PIPELINE / "verify")]
+import arguments
 import concentration
+import lifetimes
 import table
 drying_map = importlib.import_module("map")  # not to hide the built-in
 
-SCENE = """[fluid]
+SCENE = """[droplet]
+peclet = {peclet}
+[fluid]
 temperature = {temperature}  # K
 surface_tension = {tension}  # N m-1
 contact_angle = {angle}  # degree
@@ -49,6 +58,89 @@ class Tables(InAFolder):
         with contextlib.redirect_stdout(out):
             table.print_markdown(["a", "long"], ([x, "y"] for x in ("1", "22")))
         self.assertEqual(out.getvalue(), "| a  | long |\n|----|------|\n| 1  | y    |\n| 22 | y    |\n")
+
+
+class Arguments(InAFolder):
+    def setUp(self):
+        super().setUp()
+        for name in ("a.h5", "b.h5", "c.h5"):
+            (self.folder / name).touch()
+        was = os.getcwd()
+        os.chdir(self.folder)
+        self.addCleanup(os.chdir, was)
+
+    def parser(self, **more):
+        parser = arguments.parser("What it does.\n\nMore of it.\n\n    it.py hollow=a.h5 -o b.md\n", "the table", **more)
+        arguments.add_groups(parser, "rows", names=["hollow", "compact"])
+        arguments.add_groups(parser, "broken ones", "--broken")
+        return parser
+
+    def refusal(self, *given, **more):
+        said = io.StringIO()
+        with self.assertRaises(SystemExit) as ended, contextlib.redirect_stderr(said):
+            self.parser(**more).parse_args(given)
+        self.assertEqual(ended.exception.code, 2)
+        return said.getvalue()
+
+    def test_groups_keep_their_order_and_so_do_their_files(self):
+        found = self.parser().parse_args(["hollow=b.h5,a.h5", "compact=c.h5", "--broken", "x=a.h5", "-o", "t.md"])
+        self.assertEqual({name: [str(path) for path in paths] for name, paths in found.groups.items()},
+                         {"hollow": ["b.h5", "a.h5"], "compact": ["c.h5"]})
+        self.assertEqual(list(found.groups), ["hollow", "compact"])
+        self.assertEqual((found.broken, found.out), ({"x": [pathlib.Path("a.h5")]}, pathlib.Path("t.md")))
+        self.assertEqual(self.parser().parse_args(["hollow=a.h5", "-o", "t.md"]).broken, {})
+
+    def test_what_is_missing_is_named(self):
+        self.assertIn("required: -o, NAME=FILE,...", self.refusal())
+        self.assertIn("required: NAME=FILE,...\n", self.refusal(required=False))
+        for given, words in (("hollow=a.h5,absent.h5", "absent.h5: no such file"), ("hollow=", "hollow=: names no file"),
+                             ("a.h5", "'a.h5': expected NAME=FILE,FILE,..."), ("=a.h5", "'=a.h5': expected NAME=FILE"),
+                             ("hollw=a.h5", "hollw: not known; there are hollow, compact")):
+            self.assertIn(words, self.refusal(given, "-o", "t.md"))
+        self.assertIn("hollow: named twice", self.refusal("hollow=a.h5", "hollow=b.h5", "-o", "t.md"))
+
+    def test_what_is_printed_goes_to_the_file_which_stays_as_it_was_if_that_fails(self):
+        with arguments.printing_to(self.folder / "t.md"):
+            print("old")
+        with self.assertRaises(ZeroDivisionError), arguments.printing_to(self.folder / "t.md"):
+            print(f"{1 / 0}")
+        self.assertEqual((self.folder / "t.md").read_text(), "old\n")
+
+    def test_every_script_teaches_by_an_example_that_it_takes_itself(self):
+        scripts = [path for folder in ("report", "verify") for path in sorted((PIPELINE / folder).glob("*.py"))
+                   if "__main__" in path.read_text(encoding="utf-8")]
+        self.assertGreater(len(scripts), 20)
+        for path in scripts:
+            with self.subTest(script=path.name):
+                self.assertNotRegex(path.read_text(encoding="utf-8"), r"sys\.argv|import argparse")
+                module = importlib.import_module(path.stem)
+                parser = module.command_line()
+                parser.prog = path.name
+                said = " ".join(parser.format_help().split())
+                first = module.__doc__.strip().splitlines()[0]
+                self.assertRegex(first, r"[.!?:]$")
+                self.assertIn(" ".join(first.split()), said)
+                examples = re.findall(rf"(?m)^    {path.name}(.*)$", module.__doc__)
+                self.assertTrue(examples, "no example")
+                for example in examples:
+                    self.assertIn(" ".join(example.split()), said)
+                    words = shlex.split(example)
+                    for name in re.findall(r"[\w./-]+", example):  # whatever is read has to be there
+                        if "/" in name or "." in name:
+                            (self.folder / name).parent.mkdir(parents=True, exist_ok=True)
+                            (self.folder / name).touch()
+                    parser.parse_args(words)
+
+
+class Lifetimes(InAFolder):
+    def test_the_integrator_is_that_of_the_report_whatever_the_name(self):
+        report = {"inputs": {"integrator": {"method": "overdamped"}}, "cpu_s": 1, "results": {
+            "inputs": {"lifetime_s": 3e-3, "capillary_speed_limit_m_per_s": 1, "evaporation_constant_m2_per_s": 1}, "d_c_nm": 8e3,
+            "h_c_over_d_c": 0.3, "contacts": 1, "fragments": 1}}
+        path = self.folder / "inertial-25ms-1.json"
+        path.write_text(json.dumps(report))
+        found = lifetimes.read(path)
+        self.assertEqual((found["integrator"], found["lifetime_ms"]), ("overdamped", 3))
 
 
 class Map(unittest.TestCase):
@@ -86,17 +178,18 @@ class Map(unittest.TestCase):
 
 
 class Concentration(InAFolder):
-    def granule(self, name, tension="1.75e-04", temperature=300.0, angle=0.0):
+    def granule(self, name, tension="1.75e-04", temperature=300.0, angle=0.0, peclet="10"):
         path = self.folder / name
         with h5py.File(path, "w") as file:
-            file["parameters/resolved"] = SCENE.format(tension=tension, temperature=temperature, angle=angle)
+            file["parameters/resolved"] = SCENE.format(peclet=peclet, tension=tension, temperature=temperature, angle=angle)
             file["particles/all/radius"] = [10.0]
             file["particles/all/position/value"] = [[[1.0, 0, 0]]] * 3
             file["observables/droplet_radius/value"] = 215 * numpy.sqrt(1 - numpy.array(concentration.THETA))
         return str(path)
 
     def test_the_liquid_is_that_of_the_file(self):
-        *_, a, tension, temperature = concentration.read([self.granule("a.h5", "7.2e-02", 350.0, 60.0)])
+        _, peclet, a, tension, temperature = concentration.read([self.granule("a.h5", "7.2e-02", 350.0, 60.0)])
+        self.assertEqual(peclet, 10)
         self.assertAlmostEqual(a, 1e-8)
         self.assertAlmostEqual(tension, 7.2e-2 * math.cos(math.pi / 6) ** 2)
         self.assertEqual(temperature, 350)
@@ -104,6 +197,8 @@ class Concentration(InAFolder):
     def test_granules_of_two_liquids_are_not_averaged(self):
         with self.assertRaisesRegex(SystemExit, "differ"):
             concentration.read([self.granule("a.h5"), self.granule("b.h5", "3e-04")])
+        with self.assertRaisesRegex(SystemExit, "differ"):
+            concentration.read([self.granule("c.h5"), self.granule("d.h5", peclet="1")])
 
     def test_a_liquid_that_a_law_gives_is_refused_by_name(self):
         with self.assertRaisesRegex(SystemExit, 'fluid.surface_tension = "water"'):

@@ -23,7 +23,7 @@ class Table(unittest.TestCase):
             for i, content in enumerate(reports):
                 names.append(f"{folder}/{i}.json")
                 pathlib.Path(names[-1]).write_text(json.dumps(content))
-            return subprocess.run(["/usr/bin/python3", "-B", ROOT / "pipeline/report/granules.py", "hollow", *names], text=True,
+            return subprocess.run(["/usr/bin/python3", "-B", ROOT / "pipeline/report/granules.py", "hollow=" + ",".join(names)], text=True,
                                   capture_output=True)
 
     def row(self, done, name):

@@ -1,6 +1,5 @@
 """Runs of the dryer side by side, and tables of what they gave: what the drying checks share."""
 
-import argparse
 import concurrent.futures
 import datetime
 import json
@@ -21,20 +20,21 @@ SCENE = "pipeline/scenes/hollow.toml"
 RESULTS = "pipeline/results/verify"
 
 sys.path.insert(0, str(ROOT / "pipeline/report"))  # intervals and tables of the checks are those of the reports
+from arguments import parser as parser_of  # noqa: E402
 from table import write_csv  # noqa: E402
 
 # Checks that measure CPU seconds run without the companion run that estimates the error, and keep two frames only.
 BARE = {"error.estimate": "false", "output.frames": "0"}
 
 
-def arguments(description, seeds, rows=None):
+def arguments(doc, seeds, rows=None):
     """rows: of Table 2, if the check has several and can do some of them."""
-    parser = argparse.ArgumentParser(description=description)
+    parser = parser_of(doc)
     if rows:
         parser.add_argument("--rows", nargs="+", choices=rows, default=rows, help="of Table 2 (default: all)")
     parser.add_argument("--seeds", type=int, nargs="+", default=seeds, help="random starts (default: %(default)s)")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="runs side by side (default: all processors)")
-    return parser.parse_args()
+    return parser
 
 
 def run(name, seed, settings, scene=SCENE):

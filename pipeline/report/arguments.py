@@ -1,0 +1,78 @@
+"""How every script takes its arguments: groups of files as NAME=FILE,FILE,..., what is written as -o, --help with an example.
+
+The docstring of a script is its manual: the first line says what it does, the rest, with an example on an indented line, stands
+below the options.
+"""
+
+import argparse
+import contextlib
+import os
+import pathlib
+
+
+def parser(doc, writes=None, metavar="FILE", required=True):
+    """writes: what goes to -o; without it the script writes nothing that could have another name. Not required: the terminal."""
+    first, _, rest = doc.strip().partition("\n")
+    made = argparse.ArgumentParser(description=first, epilog=rest.strip("\n"), allow_abbrev=False,
+                                   formatter_class=argparse.RawDescriptionHelpFormatter)
+    if writes:
+        made.add_argument("-o", dest="out", type=pathlib.Path, metavar=metavar, required=required, help=writes)
+    return made
+
+
+def file(text):
+    path = pathlib.Path(text)
+    if not path.is_file():
+        raise argparse.ArgumentTypeError(f"{text}: no such file")
+    return path
+
+
+def group(text):
+    """NAME=FILE,FILE,... as (name, [path])."""
+    name, equals, names = text.partition("=")
+    if not name or not equals:
+        raise argparse.ArgumentTypeError(f"'{text}': expected NAME=FILE,FILE,... as in hollow=a.h5,b.h5")
+    if not names:
+        raise argparse.ArgumentTypeError(f"{name}=: names no file")
+    return name, [file(one) for one in names.split(",")]
+
+
+class Groups(argparse.Action):
+    """Gathers groups in a dictionary, in their order."""
+
+    def __init__(self, *given, names=None, **more):
+        super().__init__(*given, **more)
+        self.names = names
+
+    def __call__(self, parser, namespace, values, option_string=None):
+        found = {}
+        for name, files in values:
+            if self.names is not None and name not in self.names:
+                raise argparse.ArgumentError(self, f"{name}: not known; there are {', '.join(self.names)}")
+            if name in found:
+                raise argparse.ArgumentError(self, f"{name}: named twice")
+            found[name] = files
+        setattr(namespace, self.dest, found)
+
+
+def add_groups(parser, of, name="groups", names=None):
+    """name: of the option, if it is one; names: those that a group may have, if not all."""
+    parser.add_argument(name, type=group, nargs="+", action=Groups, names=names, metavar="NAME=FILE,...",
+                        **({"default": {}} if name.startswith("-") else {}),
+                        help=of + (f"; NAME is one of {', '.join(names)}" if names else ""))
+
+
+def add_files(parser, of, name="FILE"):
+    parser.add_argument("files", type=file, nargs="+", metavar=name, help=of)
+
+
+@contextlib.contextmanager
+def printing_to(out):
+    """What is printed goes to this file, which is whole or as it was; without one to the terminal."""
+    if out is None:
+        yield
+        return
+    temporary = f"{out}.tmp"
+    with open(temporary, "w", encoding="utf-8") as text, contextlib.redirect_stdout(text):
+        yield
+    os.replace(temporary, out)
