@@ -14,7 +14,10 @@ for input in "${inputs[@]}"; do
   [[ -f $input ]] || { echo "$input: no such file" >&2 && exit 2; }
 done
 
+# A program writes both beside their names and renames them when they are complete, the report last: an older report beside a newer
+# file is of another run.
 fresh=yes
+[[ ! $report -ot $output ]] || fresh=no
 for made in "$output" "$report"; do
   for source in "$program" "${inputs[@]}"; do
     [[ -f $made && ! $made -ot $source ]] || fresh=no
@@ -26,5 +29,4 @@ if [[ $fresh == yes ]]; then
 fi
 
 mkdir -p "$(dirname "$output")"
-rm -f "$report"  # a report of an older run must not stand beside a new file
 exec "$program" "${inputs[@]}" -o "$output" --report "$report" "$@"

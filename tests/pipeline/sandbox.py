@@ -19,7 +19,7 @@ for program in dryer agglomerate rigidstress breaker; do
 done
 """
 
-# Stands for the dryer: writes both files; BREAK=<seed> fails after the report stands under its final name.
+# Stands for the dryer: writes the file and then the report; BREAK=<seed> fails after both stand under their final names.
 DRYER = """#!/bin/bash
 echo "115 particles in a droplet" >&2
 [[ $2 != --check ]] || exit "${SCENE_CODE:-0}"
@@ -34,6 +34,7 @@ while (($#)); do
   esac
   shift
 done
+echo data > "$out"
 cat > "$report" << EOF
 {"program": "dryer", "version": "0", "scene": "$scene", "seed": $seed, "wall_s": 1.5, "cpu_s": 1.25,
  "peak_rss_bytes": 1, "steps": 10, "results": {"d_c_nm": 160, "h_c_over_d_c": 0.3, "contacts": 17$seed,
@@ -41,7 +42,6 @@ cat > "$report" << EOF
 EOF
 [[ ${BREAK:-} != "$seed" ]] || exit 1
 echo "seed $seed: a message" >&2
-echo data > "$out"
 """
 
 AGGLOMERATE = """#!/bin/bash

@@ -141,6 +141,29 @@ class Stages(Sandbox):
         self.make("dry", f"SCENE={self.SCENE}")
         self.assertEqual(len(self.called("dryer")), 1)
 
+    def test_the_old_report_stays_until_the_new_one_is_complete(self):
+        self.make("dry", f"SCENE={self.SCENE}")
+        made = [self.root / f"pipeline/results/hollow.{ending}" for ending in ("h5", "json")]
+        before = [path.read_text() for path in made]
+        later = time.time() + 2
+        os.utime(self.root / self.SCENE, (later, later))
+        # Fails before anything is renamed, as the program does.
+        self.stand_in("dryer", '#!/bin/bash\necho part > pipeline/results/hollow.json.tmp\nexit 1\n', self.root / "build/release/bin")
+        self.assertNotEqual(self.make("dry", f"SCENE={self.SCENE}").returncode, 0)
+        self.assertEqual([path.read_text() for path in made], before)
+        self.stand_in("dryer", DRYER, self.root / "build/release/bin")
+        self.forget()
+        self.assertEqual(self.make("dry", f"SCENE={self.SCENE}").returncode, 0)
+        self.assertEqual(len(self.called("dryer")), 1)
+
+    def test_a_report_older_than_its_file_is_of_another_run(self):
+        self.make("dry", f"SCENE={self.SCENE}")
+        self.forget()
+        later = time.time() + 2
+        os.utime(self.root / "pipeline/results/hollow.h5", (later, later))
+        self.make("dry", f"SCENE={self.SCENE}")
+        self.assertEqual(len(self.called("dryer")), 1)
+
     def test_dry_without_or_with_a_missing_scene_says_so(self):
         self.assertIn("which scene?", self.make("dry").stderr)
         self.assertNotEqual(self.make("dry").returncode, 0)
