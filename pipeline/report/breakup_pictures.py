@@ -106,6 +106,7 @@ def command_line():
 def main(options):
     strip(options.breakup, f"{options.out}-strip.png")
     course(options.breakup, f"{options.out}-course.svg")
+    print(f"pictures: {options.out}-strip.png (Fig 6), {options.out}-course.svg (Fig 7)")
 
 
 if __name__ == "__main__":
