@@ -433,6 +433,7 @@ TEST(Brownian, the_drag_that_dry_particles_keep_hardly_changes_the_granule) {
   struct Granule {
     double diameter = 0, contacts = 0;
   };
+  int loose = 0;
   const auto mean_granule = [&](double drag_factor) {
     Granule mean;
     for (int seed = 1; seed <= seeds; ++seed) {
@@ -444,7 +445,7 @@ TEST(Brownian, the_drag_that_dry_particles_keep_hardly_changes_the_granule) {
       Brownian integrator(model, s, seeded(static_cast<std::uint64_t>(seed)), {});
       while (s.state.time < model.droplet.lifetime) integrator.step(model.droplet.lifetime);
       const Morphology found = morphology(s.particles, s.state);
-      expect_within("fragments", found.fragments, 1, 1);
+      loose += static_cast<int>(found.fragments) - 1;
       mean.diameter += found.extent.diameter() / seeds;
       mean.contacts += static_cast<double>(found.contacts) / seeds;
     }
@@ -457,6 +458,8 @@ TEST(Brownian, the_drag_that_dry_particles_keep_hardly_changes_the_granule) {
     expect_near(fmt::format("contacts at drag factor {}", factor), other.contacts / usual.contacts, 1,
                 long_version() ? 0.06 : 0.11);
   }
+  // A granule in 36 lost a particle (4 of 144): of 18 more than five by chance 1e-5, of 120 more than 14 1e-6.
+  expect_within("pieces beside the granules", loose, 0, long_version() ? 14 : 5);
 }
 
 }  // namespace
