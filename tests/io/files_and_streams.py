@@ -150,6 +150,8 @@ class Program(unittest.TestCase):
             for size in (1, 100, 1000, 3000, 10000, 25000):
                 limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
                 ran = self.run_it(*command, preexec_fn=limit)
+                if size <= 1000 and "OMP: System error" in ran.stderr:
+                    continue  # LLVM's OpenMP wants a file in /dev/shm of itself, before the program begins
                 if ran.returncode == 0:  # it is as small as that
                     self.assertTrue(output.exists())
                     output.unlink()
