@@ -226,7 +226,7 @@ class Program(unittest.TestCase):
             self.assertIn(f"is being written by process {first.pid} on ", second.stderr)
         first.send_signal(signal.SIGTERM)
         self.assertEqual(first.wait(60), 143)
-        self.assertEqual(self.left(), ["o.h5.checkpoint", "o.h5.tmp"])
+        self.assertEqual(self.left(), ["o.h5.checkpoint", "o.h5.frames"])
 
     def test_values_that_no_colloid_has_are_refused_with_the_likely_unit(self):
         def refusal(*settings):
