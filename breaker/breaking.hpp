@@ -52,9 +52,9 @@ class Breaking {
   Job job_;
   SavedBreakup saved_;
   std::unique_ptr<BreakupRun> run_;
-  std::unique_ptr<Companion> companion_;
   std::unique_ptr<FrameLog> frames_;
   StateKeeper keeper_;
+  std::unique_ptr<Companion> companion_;  // goes first: while its thread ends, the keeper knows what is kept
 };
 
 }  // namespace crumble::breaker

@@ -86,12 +86,12 @@ void Implicit::require_advance(double dt, double left) {
   }
   const double front = front_.time_at(std::max(R - travel, 0.0)) - state_.state.time;
   if (dt < 0.1 * std::min(left, front)) ++short_steps_;
-  const double most = 2000 + 5.5 * std::pow(static_cast<double>(state_.particles.size()), 0.75);
+  const double most = 500 + 5.5 * std::pow(static_cast<double>(state_.particles.size()), 0.75);
   if (static_cast<double>(short_steps_) < most) return;
   throw std::runtime_error(fmt::format(
       "step {} at t = {:.6g} s: {} steps have moved the surface by less than {:.3g} nm, from R = {:.4g} nm, and do not "
-      "grow longer ({} contacts, which may open as soon as they are made): this scene does not come to an end with the "
-      "implicit integrator. Try contact.law = \"jkr\", another poisson_ratio or integrator.method = \"inertial\"",
+      "grow longer ({} contacts, which may open as soon as they are made): the implicit integrator does not bring this "
+      "scene to an end. Try another integrator.method or, with contact.law = \"cundall-strack\", another poisson_ratio",
       state_.state.step, state_.state.time, short_steps_, 1e9 * travel, 1e9 * mark_, state_.state.contacts.size()));
 }
 

@@ -167,6 +167,10 @@ StressScene stress_scene(const Scene& scene) {
   s.orbit.sample = scene.real("flow.sample");
   s.orbit.tolerance = scene.real("flow.orientation_tolerance");
   if (s.orbit.sample > s.orbit.strain) throw scene.error("flow.sample", "is longer than flow.strain");
+  constexpr double most = 1e7;  // instants of an orbit, 40 bytes each
+  if (s.orbit.strain > most * s.orbit.sample)
+    throw scene.error("flow.sample", fmt::format("makes {:.2g} instants of every orbit; at least {:g} makes {:g}",
+                                                 s.orbit.strain / s.orbit.sample, s.orbit.strain / most, most));
   if (scene.is_set("flow.history")) {
     s.history = GradientHistory::read(history_files(scene).front().name, scene.real("flow.largest_history_step"));
   }

@@ -17,6 +17,7 @@ namespace crumble {
 namespace {
 
 std::atomic<int> arrived{0};
+std::atomic<bool> watching{false};
 static_assert(std::atomic<int>::is_always_lock_free);  // else a handler may not touch it
 sem_t signalled, over;
 
@@ -83,7 +84,7 @@ void remove_files() {
 void wait_and_end() {
   for (;;) {
     wait_for(signalled);
-    if (comes_within(over, 500)) continue;
+    if (comes_within(over, 500) || !watching || arrived == 0) continue;
     const std::string words = do_all();
     if (comes_within(over, 100)) continue;
     remove_files();
@@ -111,6 +112,7 @@ void watch_for_interrupts(const std::string& program) {
   static std::once_flag once;
   std::call_once(once, start_waiting);
   arrived = 0;
+  watching = true;
   while (sem_trywait(&over) == 0) {  // of a body before this one
   }
   {
@@ -125,7 +127,10 @@ void watch_for_interrupts(const std::string& program) {
   sigaction(SIGTERM, &action, nullptr);
 }
 
-void end_watch() noexcept { sem_post(&over); }
+void end_watch() noexcept {
+  watching = false;
+  sem_post(&over);
+}
 
 int interrupt_signal() noexcept { return arrived.load(std::memory_order_relaxed); }
 

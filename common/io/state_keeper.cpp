@@ -49,11 +49,9 @@ SavedState StateKeeper::collect() {
 
 // First the frames, then the state that says how many there are.
 void StateKeeper::write(const SavedState& state) {
-  if (frames_) {
-    frames_->flush();
-    frames_->keep();
-  }
+  if (frames_) frames_->flush();
   checkpoint_.write(state);
+  if (frames_) frames_->keep();
   on_disk_ = true;
 }
 
@@ -101,18 +99,19 @@ std::string StateKeeper::save_the_remembered() {
 }
 
 void StateKeeper::keep_and_rethrow(const std::exception& error) {
+  if (dynamic_cast<const InputError*>(&error)) throw;
   const auto* stop = dynamic_cast<const Interrupted*>(&error);
-  // What failed within a step may have left half of it.
-  if (!stop && !dynamic_cast<const WriteError*>(&error)) throw;
   try {
-    save();
+    // What failed within a step may have left half of it: then the last whole state counts.
+    if (stop || dynamic_cast<const WriteError*>(&error)) save();
     const std::lock_guard lock(writing_);
+    if (const auto state = std::exchange(remembered_, nullptr)) write(*state);
     ended_ = true;
   } catch (const std::exception& problem) {
     if (stop)
       throw Interrupted(stop->signal, fmt::format("{}; the state cannot be kept: {}", stop->what(), problem.what()));
   }
-  say_(kept());
+  if (on_disk_) say_(kept());
   throw;
 }
 

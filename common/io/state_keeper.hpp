@@ -31,7 +31,8 @@ class StateKeeper {
   void between_steps(const std::function<std::string()>& where);
   void save();
 
-  // Does `work`. If a signal or a full disk ends it, the state is saved and what ended it goes on.
+  // Does `work`. What ends it early goes on, with the state saved: that of now after a signal or a full disk, else the
+  // last whole one.
   template <class Work>
   void guard(Work work) {
     try {

@@ -18,22 +18,22 @@ class DoneParts {
   std::function<void(const std::string&)> begins = [](const std::string&) {};  // hears of what is computed
   std::function<void()> done = [] {};                                          // called when a part is kept; may throw
 
-  // The value of a part: as it was saved, or computed now and kept. fields(f, value) lists it.
+  // The value of a part: as it was saved, or computed now and kept. list(f, value) lists its fields.
   template <class Compute, class Fields>
-  auto value(const std::string& name, Compute compute, Fields fields) {
+  auto value(const std::string& name, Compute compute, Fields list) {
     const std::string whole = within + name;
     SavedState part = saved_part(whole);
     if (!part.integers.empty() || !part.reals.empty()) {
       decltype(compute()) value;
       SavedFields f = SavedFields::loader(std::move(part));
-      fields(f, value);
+      list(f, value);
       f.require_all_read();
       return value;
     }
     begins(whole);
     auto value = compute();
     SavedFields f = SavedFields::saver(part);
-    fields(f, value);
+    list(f, value);
     keep(whole, part);
     done();
     return value;

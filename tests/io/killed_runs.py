@@ -206,22 +206,30 @@ def stop(name, command, after, keeps):
 
 def prepare():
     (folder / "scene.toml").write_text("[particle]\nradius = 10e-9\n[droplet]\nradius = 140e-9\nlifetime = 4e-5\n")
-    rows = ["x,y,z", *(f"{20 * k},{4 * (k % 3)},{3 * (k % 2)}" for k in range(14))]
+    rows = ["x,y,z", *(f"{18 * k},{8.7178 * (k % 2)},0" for k in range(14))]
     (folder / "chain.csv").write_text("\n".join(rows) + "\n")
     rows = ["x,y,z", *(f"{20 * (k % 60)},{20 * (k // 60 % 60)},{20 * (k // 3600)}" for k in range(150000))]
     (folder / "many.csv").write_text("\n".join(rows) + "\n")
-    subprocess.run([str(options.programs / "agglomerate"), "import", "chain.csv", "--radius", "10.5", "-o", "chain.h5"],
+    subprocess.run([str(options.programs / "agglomerate"), "import", "chain.csv", "--radius", "10", "-o", "chain.h5"],
                    cwd=folder, check=True, capture_output=True)
+
+
+def crawl():
+    """Contacts that open as soon as they are made leave no steps that bring the front on: a reason, not a run for ever."""
+    for words in (["material.poisson_ratio=-0.79", "contact.law=cundall-strack"],
+                  ["droplet.lifetime=100", "integrator.method=implicit"]):
+        code, messages = ended(start([*dryer()[:6], *settings("particle.number=8", "error.estimate=false", *words)]))
+        print(f"{' '.join(words)}: {code}, {messages.strip().splitlines()[-1]}")
+        assert code == 0 or code == 1 and "does not bring this scene to an end" in messages, (code, messages)
+        forget()
 
 
 def phases():
     slow = settings("droplet.lifetime=100", "particle.number=20", "error.estimate=false")
     base = dryer()[:6]
     yield "dryer, one long stabilised step", [*base, *slow], 1.0, True
-    yield "dryer, slow implicit drying", [*base, *slow, *settings("integrator.method=implicit")], 1.0, True
     yield "dryer, error estimate", [*base, *settings("droplet.lifetime=1e-2", "particle.number=100")], 1.0, True
     yield "dryer, filling a large droplet", [*base, *settings("particle.number=1000000", "droplet.radius=2e-6")], 1.5, False
-    yield "dryer continuum", [options.programs / "dryer", "continuum", "--peclet", "1e-6", "--theta", "0.5", "-o", "o.h5.csv"], 0.3, False
     hollow = options.data / "hollow.h5"
     yield "rigidstress, high multipoles", rigidstress("hydrodynamics.method=multipole", "hydrodynamics.order=6",
                                                       "error.estimate=false", agglomerate=hollow), 1.0, False
@@ -237,6 +245,7 @@ try:
         resumed = kill(name, command, whole, duration, -(-options.kills // len(RUNS)))
         refused = damage(name, command, whole, duration, 4 if options.kills < 100 else 40)
         print(f"{name}: {duration:.2f} s undisturbed; {resumed} times gone on from a checkpoint; {refused} damaged files refused")
+    crawl()
     for name, command, after, keeps in phases():
         stop(name, command, after, keeps)
 finally:
