@@ -1,11 +1,11 @@
 #include "breaker/companion.hpp"
 
-#include "common/io/errors.hpp"
-#include "common/io/interrupt.hpp"
+#include <chrono>
 
 namespace crumble::breaker {
 
-Companion::Companion(const BreakerScene& scene, const Agglomerate& start, bool beside) : scene_(scene), start_(start) {
+Companion::Companion(const BreakerScene& scene, const Agglomerate& start, bool beside, SavedState saved)
+    : scene_(scene), start_(start), state_(std::move(saved)) {
   scene_.until_stable = false;
   if (beside) thread_ = std::thread([this] { run(); });
 }
@@ -15,29 +15,54 @@ Companion::~Companion() {
   if (thread_.joinable()) thread_.join();
 }
 
+void Companion::begin() {
+  run_.emplace(scene_, start_, scene_.is_explicit ? 0.5 : 2);
+  if (!state_.integers.empty()) load(*run_, state_);
+}
+
+void Companion::publish() {
+  SavedState now = save(*run_);
+  const std::lock_guard lock(mutex_);
+  state_ = std::move(now);
+}
+
 void Companion::run() {
   try {
-    BreakupRun run(scene_, start_, scene_.is_explicit ? 0.5 : 2);
-    while (!run.finished()) {
-      run.step();
-      if (interrupt_signal())
-        throw Interrupted(interrupt_signal(), "stopped during the error estimate, which begins anew");
-      if (stop_) return;
+    begin();
+    while (!run_->finished() && !stop_) {
+      run_->step();
+      if (wanted_.exchange(false)) publish();
     }
-    if (run.breakup().severed) result_ = *run.breakup().severed;
-    done_ = true;
+    publish();
   } catch (...) {
     failure_ = std::current_exception();
   }
+  over_ = true;
 }
 
-double Companion::critical_stress() {
-  if (thread_.joinable())
+SavedState Companion::state() {
+  constexpr int most = 20;  // ms
+  if (thread_.joinable()) {
+    wanted_ = true;
+    for (int waited = 0; waited < most && wanted_ && !over_; ++waited)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  } else if (run_) {
+    publish();
+  }
+  const std::lock_guard lock(mutex_);
+  return state_;
+}
+
+double Companion::critical_stress(const std::function<void()>& between_steps) {
+  if (thread_.joinable()) {
+    for (; !over_; std::this_thread::sleep_for(std::chrono::milliseconds(1))) between_steps();
     thread_.join();
-  else if (!done_)
-    run();
-  if (failure_) std::rethrow_exception(failure_);
-  return result_;
+    if (failure_) std::rethrow_exception(failure_);
+  } else {
+    begin();
+    for (; !run_->finished(); run_->step()) between_steps();
+  }
+  return run_->breakup().severed.value_or(std::numeric_limits<double>::infinity());
 }
 
 }  // namespace crumble::breaker

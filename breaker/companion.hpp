@@ -3,7 +3,10 @@
 
 #include <atomic>
 #include <exception>
+#include <functional>
 #include <limits>
+#include <mutex>
+#include <optional>
 #include <thread>
 
 #include "breaker/run.hpp"
@@ -13,24 +16,32 @@ namespace crumble::breaker {
 // Runs beside the main run in a thread of its own, or when asked for the result.
 class Companion {
  public:
-  Companion(const BreakerScene& scene, const Agglomerate& start, bool beside);
+  // saved: the state from which it goes on, empty at its beginning.
+  Companion(const BreakerScene& scene, const Agglomerate& start, bool beside, SavedState saved);
   ~Companion();
   Companion(const Companion&) = delete;
   Companion& operator=(const Companion&) = delete;
 
-  bool done() const { return done_; }
-  // Waits. Critical stress, Pa; infinite where nothing broke. Stops with Interrupted at a signal.
-  double critical_stress();
+  // The state after the step in which it is, or after an earlier one if that takes longer than a moment.
+  SavedState state();
+
+  // Waits. Critical stress, Pa; infinite where nothing broke. `between_steps` is called now and then meanwhile, and may
+  // throw.
+  double critical_stress(const std::function<void()>& between_steps);
 
  private:
   BreakerScene scene_;
   const Agglomerate& start_;
+  std::optional<BreakupRun> run_;
   std::thread thread_;
-  std::atomic<bool> done_ = false, stop_ = false;
-  double result_ = std::numeric_limits<double>::infinity();
+  std::atomic<bool> over_ = false, stop_ = false, wanted_ = false;
+  std::mutex mutex_;
+  SavedState state_;
   std::exception_ptr failure_;
 
+  void begin();
   void run();
+  void publish();
 };
 
 }  // namespace crumble::breaker

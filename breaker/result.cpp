@@ -14,33 +14,29 @@
 
 namespace crumble::breaker {
 
-void append_frame(AgglomerateWriter& writer, const BreakupRun& run, const BreakerScene& scene) {
+void append_frame(FrameLog& frames, const BreakupRun& run, const BreakerScene& scene) {
   const NetworkState& n = run.look().network;
-  writer.append(run.laboratory(), {{"flow_stress", run.stress()},
+  frames.append(run.laboratory(), {{"flow_stress", run.stress()},
                                    {"shear_rate", run.stress() / scene.model.viscosity},
                                    {"max_tension", n.max_tension},
                                    {"slipping_count", static_cast<double>(n.slipping)},
                                    {"rolling_count", static_cast<double>(n.rolling)}});
 }
 
-void append_sample(AgglomerateWriter& writer, const BreakupRun& run) {
+void append_sample(FrameLog& frames, const BreakupRun& run) {
   const Look& l = run.look();
-  const std::int64_t step = run.statistics().steps;
-  const double time = run.time();
-  const auto sample = [&](const char* name, const char* unit, double value) {
-    writer.sample(name, unit, step, time, value);
-  };
-  sample("flow_stress", "Pa", l.stress);
-  sample("radius_of_gyration", "nm", l.radius_of_gyration);
-  sample("semi_axis_largest", "nm", l.semi_axes[0]);
-  sample("semi_axis_middle", "nm", l.semi_axes[1]);
-  sample("semi_axis_smallest", "nm", l.semi_axes[2]);
-  sample("contacts", "", static_cast<double>(l.contacts));
-  sample("largest_fragment", "", static_cast<double>(l.largest_fragment));
-  sample("max_tension", "N", l.network.max_tension);
-  sample("slipping", "", static_cast<double>(l.network.slipping));
-  sample("twisting", "", static_cast<double>(l.network.twisting));
-  sample("rolling", "", static_cast<double>(l.network.rolling));
+  frames.sample(run.statistics().steps, run.time(),
+                {{"flow_stress", "Pa", l.stress},
+                 {"radius_of_gyration", "nm", l.radius_of_gyration},
+                 {"semi_axis_largest", "nm", l.semi_axes[0]},
+                 {"semi_axis_middle", "nm", l.semi_axes[1]},
+                 {"semi_axis_smallest", "nm", l.semi_axes[2]},
+                 {"contacts", "", static_cast<double>(l.contacts)},
+                 {"largest_fragment", "", static_cast<double>(l.largest_fragment)},
+                 {"max_tension", "N", l.network.max_tension},
+                 {"slipping", "", static_cast<double>(l.network.slipping)},
+                 {"twisting", "", static_cast<double>(l.network.twisting)},
+                 {"rolling", "", static_cast<double>(l.network.rolling)}});
 }
 
 void write_rest(AgglomerateWriter& writer, const BreakupRun& run, const BreakerScene& scene, const Start& start) {

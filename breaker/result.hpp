@@ -6,12 +6,13 @@
 #include "breaker/run.hpp"
 #include "breaker/start.hpp"
 #include "common/io/agglomerate_writer.hpp"
+#include "common/io/frame_log.hpp"
 #include "common/io/report.hpp"
 
 namespace crumble::breaker {
 
-void append_frame(AgglomerateWriter& writer, const BreakupRun& run, const BreakerScene& scene);
-void append_sample(AgglomerateWriter& writer, const BreakupRun& run);
+void append_frame(FrameLog& frames, const BreakupRun& run, const BreakerScene& scene);
+void append_sample(FrameLog& frames, const BreakupRun& run);
 // Closing, flow and events: once, at the end.
 void write_rest(AgglomerateWriter& writer, const BreakupRun& run, const BreakerScene& scene, const Start& start);
 

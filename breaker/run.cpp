@@ -140,6 +140,7 @@ void BreakupRun::fields(SavedFields& f) {
   f("window_end", window_end_);
   f("broken", broken_);
   f("finished", finished_);
+  f("at_stage_end", at_stage_end_);
   SavedFields pieces = f.in("pieces"), course = f.in("course");
   pieces_.fields(pieces);
   course_.fields(course);

@@ -150,7 +150,8 @@ const ParameterTable& breaker_parameters() {
                 "agglomerate would break")
             .above(0)
             .optional(),
-        P::real("frame_interval", "Pa", "Between two frames; without it a 20th of that stress").above(0).optional()}}};
+        P::real("frame_interval", "Pa", "Between two frames; without it a 20th of that stress").above(0).optional(),
+        checkpoint_interval_parameter()}}};
   return table;
 }
 
@@ -195,6 +196,7 @@ BreakerScene breaker_scene(const Scene& scene) {
   s.estimate_error = scene.flag("error.estimate");
   s.accuracy = scene.real("error.accuracy");
   s.halvings = scene.integer("error.halvings");
+  s.checkpoint_interval = scene.real("output.checkpoint_interval");
   if (scene.is_set("output.sample_interval")) s.sample_interval = scene.real("output.sample_interval");
   if (scene.is_set("output.frame_interval")) s.frame_interval = scene.real("output.frame_interval");
   return s;

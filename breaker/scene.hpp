@@ -27,6 +27,7 @@ struct BreakerScene {
   bool allow_unstable = false;
   double reach = 1;                            // gap beyond which a fragment is lost, in a
   std::optional<std::int64_t> lost_particles;  // whose loss is the breakup; else a twentieth of all, rounded up
+  double checkpoint_interval = 60;             // s of wall time
   bool until_stable = false;
   double stable_strain = 20;   // without rupture, at constant stress
   double brittle_below = 0.1;  // relative change of the largest semi-axis

@@ -3,8 +3,8 @@
 namespace crumble::dryer {
 
 void DryingProgress::fields(SavedFields& f) {
+  f("estimated", estimated);
   f("frames", frames);
-  f("last_frame_step", last_frame_step);
   std::vector<DryingOutcome> done;
   if (companion) done.push_back(*companion);
   f.size("companion", done);
@@ -14,25 +14,22 @@ void DryingProgress::fields(SavedFields& f) {
   if (!done.empty()) companion = done.front();
 }
 
-void DryingCheckpoint::save(DryingRun& run, DryingProgress progress) const {
-  store([&](SavedFields& f) {
-    progress.fields(f);
-    run.save(f.in("run"));
-  });
+double coarsening(const DryingProgress& progress) { return progress.estimated ? 1 : 2; }
+
+void save_drying(SavedFields& f, DryingProgress& progress, DryingRun& run) {
+  SavedFields beside = f.in("progress");
+  progress.fields(beside);
+  run.save(f.in("run"));
 }
 
-DryingProgress DryingCheckpoint::progress() const {
-  return restored([](SavedFields& f) {
-    DryingProgress progress;
-    progress.fields(f);
-    return progress;
-  });
-}
-
-DryingRun DryingCheckpoint::resume(const DryingScene& scene) const {
-  return restored([&](SavedFields& f) {
-    DryingProgress().fields(f);
-    return DryingRun(scene, f.in("run"));
+SavedDrying saved_drying(const OutputCheckpoint& checkpoint, const DryingScene& scene) {
+  return checkpoint.restored([&](SavedFields& f) {
+    SavedDrying saved;
+    saved.frames.fields(f.in("frames"));
+    SavedFields beside = f.in("progress");
+    saved.progress.fields(beside);
+    saved.run = std::make_unique<DryingRun>(scene, coarsening(saved.progress), f.in("run"));
+    return saved;
   });
 }
 

@@ -1,28 +1,34 @@
-// Saves a drying run where it stands, and takes it up again to the same bits.
+// Takes a drying run up again where it stood, to the same bits.
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "common/io/checkpoint.hpp"
+#include "common/io/frame_log.hpp"
 #include "dryer/run.hpp"
 
 namespace crumble::dryer {
 
 // What main keeps beside the run.
 struct DryingProgress {
-  int frames = 0;                    // already in the file
-  std::int64_t last_frame_step = 0;  // of the last of them
-  std::optional<DryingOutcome> companion;
+  bool estimated = false;                  // the error estimate, which comes first, is over
+  std::optional<DryingOutcome> companion;  // what it came to
+  int frames = 0;                          // already in the log
   void fields(SavedFields& f);
 };
 
-class DryingCheckpoint : public OutputCheckpoint {
- public:
-  using OutputCheckpoint::OutputCheckpoint;
+// The run that is under way is the companion of the error estimate or, with that over, the run itself.
+void save_drying(SavedFields& f, DryingProgress& progress, DryingRun& run);
 
-  DryingProgress progress() const;
-  DryingRun resume(const DryingScene& scene) const;
-  void save(DryingRun& run, DryingProgress progress) const;
+struct SavedDrying {
+  FrameLog::Mark frames;
+  DryingProgress progress;
+  std::unique_ptr<DryingRun> run;
 };
+SavedDrying saved_drying(const OutputCheckpoint& checkpoint, const DryingScene& scene);
+
+// Factor on the step control of the run that is under way.
+double coarsening(const DryingProgress& progress);
 
 }  // namespace crumble::dryer

@@ -64,8 +64,9 @@ void Implicit::step(double latest_time) {
   double dt = proposal(latest_time);
   const double start = dt;
   for (int tries = 0; tries < 60; ++tries) {
+    const double before = state_.state.time;
     const Attempt result = attempt(dt);
-    if (result.accepted) return;
+    if (result.accepted) return require_advance(dt, latest_time - before);
     ++statistics_.rejected;
     take_back_bonds();
     dt = result.retry;
@@ -73,6 +74,25 @@ void Implicit::step(double latest_time) {
   throw std::runtime_error(fmt::format(
       "step {} at t = {:.6g} s: no step length from {:.3g} s down to {:.3g} s converges (particles {}, bonds {})",
       state_.state.step, state_.state.time, start, dt, state_.particles.size(), state_.state.contacts.size()));
+}
+
+// A run takes some steps while the front goes on by the largest displacement, or a few hundred where much falls into
+// place at once. Where contacts open again in the step after the one that made them, the steps never grow.
+void Implicit::require_advance(double dt, double left) {
+  const double travel = control_.largest_displacement * smallest_radius(), R = front_.radius(state_.state.time);
+  if (R < mark_ - travel || mark_ == std::numeric_limits<double>::infinity()) {
+    mark_ = R;
+    short_steps_ = 0;
+  }
+  const double front = front_.time_at(std::max(R - travel, 0.0)) - state_.state.time;
+  if (dt < 0.1 * std::min(left, front)) ++short_steps_;
+  const double most = 500 + 5.5 * std::pow(static_cast<double>(state_.particles.size()), 0.75);
+  if (static_cast<double>(short_steps_) < most) return;
+  throw std::runtime_error(fmt::format(
+      "step {} at t = {:.6g} s: {} steps have moved the surface by less than {:.3g} nm, from R = {:.4g} nm, and do not "
+      "grow longer ({} contacts, which may open as soon as they are made): the implicit integrator does not bring this "
+      "scene to an end. Try another integrator.method or, with contact.law = \"cundall-strack\", another poisson_ratio",
+      state_.state.step, state_.state.time, short_steps_, 1e9 * travel, 1e9 * mark_, state_.state.contacts.size()));
 }
 
 void Implicit::refresh() {

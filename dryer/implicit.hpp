@@ -2,6 +2,8 @@
 // any contact law.
 #pragma once
 
+#include <limits>
+
 #include "dryer/implicit_step.hpp"
 #include "dryer/integrator.hpp"
 
@@ -43,11 +45,14 @@ class Implicit : public Integrator {
   void take_back_bonds();
   void accept(double dt);
   void refresh();
+  void require_advance(double dt, double left);
 
   ImplicitControl control_;
   ImplicitStep implicit_;
   bool network_changed_ = true;
-  double next_dt_ = 0;  // proposal of the step control, s
+  double mark_ = std::numeric_limits<double>::infinity();  // radius of the front when steps were counted last, m
+  std::int64_t short_steps_ = 0;                           // since then, much shorter than the front allows
+  double next_dt_ = 0;                                     // proposal of the step control, s
   struct Touch {
     Pair pair;
     double fraction;  // of the step

@@ -1,5 +1,4 @@
 // Dries one droplet of colloid: scene in, agglomerate file out.
-#include <fmt/core.h>
 #include <malloc.h>
 #include <omp.h>
 
@@ -8,14 +7,13 @@
 
 #include "common/io/command_line.hpp"
 #include "common/io/granule.hpp"
-#include "common/io/interrupt.hpp"
 #include "common/io/machine.hpp"
 #include "common/io/output_lock.hpp"
 #include "common/io/program.hpp"
 #include "common/io/provenance.hpp"
 #include "common/numerics/noise.hpp"
 #include "dryer/continuum_command.hpp"
-#include "dryer/drying_checkpoint.hpp"
+#include "dryer/drying.hpp"
 #include "dryer/expected_cost.hpp"
 #include "dryer/regime.hpp"
 #include "dryer/result.hpp"
@@ -41,57 +39,6 @@ ProgramDescription description() {
           version_text("dryer"),
           drying_parameters(),
           true};
-}
-
-// How many of the frames after the first are due: those whose radius the front has passed, and the last one at the end.
-int frames_due(const DryingRun& run) { return run.frames_passed() + (run.finished() ? 1 : 0); }
-
-void advance(DryingRun& run, const ExpectedCost& cost, ProgressPrinter& progress) {
-  run.step();
-  progress.update(cost.share(run.fraction()), run.integrator().statistics().steps, [&] {
-    return fmt::format("R = {:.3g} nm, {} contacts", run.droplet_radius() * 1e9, run.state().state.contacts.size());
-  });
-}
-
-DryingOutcome run_companion(const DryingScene& scene, const ExpectedCost& cost, const CommandLine& line) {
-  ProgressPrinter progress(stderr, std::filesystem::path(line.output).stem().string() + ", error estimate", line.quiet);
-  DryingRun run(scene, 2);
-  while (!run.finished()) {
-    advance(run, cost, progress);
-    if (interrupt_signal())
-      throw Interrupted(interrupt_signal(), "stopped during the error estimate: nothing to keep yet");
-  }
-  return outcome(morphology(run.state().particles, run.state().state));
-}
-
-AgglomerateWriter open_writer(const CommandLine& line, const Scene& scene, const Provenance& provenance,
-                              const DryingRun& run) {
-  return {line.output, run.state().particles, {"dryer", provenance, scene.given(), scene.resolved(), "total"}};
-}
-
-// Steps to the end and writes the frames that fall due. Whatever ends it early leaves a checkpoint.
-void run_to_the_end(DryingRun& run, AgglomerateWriter& writer, const DryingCheckpoint& checkpoint, DryingProgress done,
-                    const ExpectedCost& cost, ProgressPrinter& progress) {
-  const auto frame = [&](int number) {
-    append_frame(writer, run);
-    done.frames = number;
-    done.last_frame_step = run.state().state.step;
-  };
-  try {
-    if (done.frames == 0) frame(1);
-    while (!run.finished()) {
-      advance(run, cost, progress);
-      if (frames_due(run) >= done.frames) frame(frames_due(run) + 1);
-      if (interrupt_signal())
-        throw Interrupted(interrupt_signal(), fmt::format("stopped at t = {:g} s", run.state().state.time));
-    }
-  } catch (const std::exception& error) {
-    keep_and_rethrow([&] {
-      writer.suspend();
-      checkpoint.save(run, done);
-      progress.say(fmt::format("the state is kept in {}; the same command goes on from there", checkpoint.path()));
-    });
-  }
 }
 
 int dry(int argc, const char* const* argv) {
@@ -120,26 +67,18 @@ int dry(int argc, const char* const* argv) {
   }
 
   const OwnedOutputs owned(line.written, {});
-  DryingCheckpoint checkpoint(line.output, {"dryer", provenance.version, text.resolved()});
+  const OutputCheckpoint checkpoint(line.output, {"dryer", provenance.version, text.resolved()});
   if (line.restart) checkpoint.require();
   if (checkpoint.found()) progress.say("resuming from " + checkpoint.path());
-  DryingProgress done = checkpoint.found() ? checkpoint.progress() : DryingProgress{};
-  if (!checkpoint.found() && scene.estimate_error) done.companion = run_companion(scene, cost, line);
-  DryingRun run = checkpoint.found() ? checkpoint.resume(scene) : DryingRun(scene, 1);
-  AgglomerateWriter writer = checkpoint.found() ? AgglomerateWriter::resume(line.output, done.last_frame_step)
-                                                : open_writer(line, text, provenance, run);
-  run_to_the_end(run, writer, checkpoint, done, cost, progress);
-
-  const Morphology result = morphology(run.state().particles, run.state().state);
-  write_morphology(writer, result);
-  Properties properties = properties_of(text);
-  properties["fluid.viscosity"] = scene.model.viscosity;  // where the scene says "water", water's
-  write_properties(writer, properties);
-  writer.finish("dry");
+  if (const std::string left = checkpoint.leftovers(); !left.empty()) progress.say(left);
+  progress.in_hand("filling the droplet");
+  Drying drying({line, text, scene, provenance, cost, progress}, checkpoint);
+  const Morphology result = drying.finish();
   checkpoint.remove();
+  drying.forget();
   report.add_earlier(checkpoint.used());
-  fill_report(report, scene, run, result, done.companion);
-  deliver(result_text(result, done.companion), [&] { report.write(line.report); });
+  fill_report(report, scene, drying.run(), result, drying.companion());
+  deliver(result_text(result, drying.companion()), [&] { report.write(line.report); });
   return 0;
 }
 

@@ -8,9 +8,9 @@
 
 namespace crumble::dryer {
 
-void append_frame(AgglomerateWriter& writer, const DryingRun& run) {
+void append_frame(FrameLog& frames, const DryingRun& run) {
   const auto surface = run.surface();
-  writer.append(run.state().state, {{"droplet_radius", run.droplet_radius()},
+  frames.append(run.state().state, {{"droplet_radius", run.droplet_radius()},
                                     {"wetted_count", static_cast<double>(surface.wetted)},
                                     {"capillary_force", surface.largest_force}});
 }

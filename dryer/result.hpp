@@ -4,12 +4,13 @@
 #include <optional>
 
 #include "common/io/agglomerate_writer.hpp"
+#include "common/io/frame_log.hpp"
 #include "common/io/report.hpp"
 #include "dryer/run.hpp"
 
 namespace crumble::dryer {
 
-void append_frame(AgglomerateWriter& writer, const DryingRun& run);
+void append_frame(FrameLog& frames, const DryingRun& run);
 void write_morphology(AgglomerateWriter& writer, const Morphology& morphology);
 
 // companion: outcome of the same run with doubled step control, if there was one.

@@ -72,7 +72,8 @@ DryingRun::Begin DryingRun::saved_begin(const DryingScene& scene, SavedFields& s
   return begin;
 }
 
-DryingRun::DryingRun(const DryingScene& scene, SavedFields saved) : DryingRun(scene, 1, saved_begin(scene, saved)) {
+DryingRun::DryingRun(const DryingScene& scene, double coarsening, SavedFields saved)
+    : DryingRun(scene, coarsening, saved_begin(scene, saved)) {
   SavedFields f = saved.in("integrator");
   integrator_->fields(f);
   saved.require_all_read();

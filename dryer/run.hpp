@@ -25,7 +25,7 @@ class DryingRun {
   DryingRun(const DryingScene& scene, double coarsening);
 
   // A run that goes on from a saved state. Throws SavedFieldError if fields are missing or left over.
-  DryingRun(const DryingScene& scene, SavedFields saved);
+  DryingRun(const DryingScene& scene, double coarsening, SavedFields saved);
   DryingRun(const DryingRun&) = delete;  // the integrator refers to the model and the state
   DryingRun& operator=(const DryingRun&) = delete;
 

@@ -29,8 +29,9 @@ struct DryingScene {
   ImplicitControl implicit;
   StabilisedControl stabilised;
   BrownianControl brownian;
-  double softening = 1;        // of the contacts while particles diffuse
-  std::vector<double> frames;  // fractions 1 - R/R0 at which one is due, in order, besides the start and the end
+  double softening = 1;             // of the contacts while particles diffuse
+  std::vector<double> frames;       // fractions 1 - R/R0 at which one is due, in order, besides the start and the end
+  double checkpoint_interval = 60;  // s of wall time
   bool estimate_error = true;
 
   double smallest_radius() const { return radius.back(); }

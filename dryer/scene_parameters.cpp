@@ -159,7 +159,8 @@ const ParameterTable& drying_parameters() {
         P::list("theta", "", "Further frames: [0.2, 0.4] adds those where (R/R0)^2 has fallen by 0.2 and by 0.4")
             .above(0)
             .below(1)
-            .optional()}},
+            .optional(),
+        checkpoint_interval_parameter()}},
       {"run", "The run itself.", {P::integer("seed", "Names the random start").at_least(0).by_default(1)}}};
   return table;
 }

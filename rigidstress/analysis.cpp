@@ -21,6 +21,10 @@ void refuse_fragments(const std::vector<Body>& parts, const std::string& name) {
                   name, parts.size(), sizes, parts[1].particle.front()));
 }
 
+std::string piece_name(std::size_t number, std::size_t pieces) {
+  return pieces > 1 ? fmt::format("piece {}, ", number + 1) : "";
+}
+
 }  // namespace
 
 const BodyResult& Analysis::weakest() const {
@@ -30,13 +34,15 @@ const BodyResult& Analysis::weakest() const {
   return bodies[weakest];
 }
 
-Analysis analyse(Prepared prepared, const std::string& name, const StressScene& scene, const Say& say) {
+Analysis analyse(Prepared prepared, const std::string& name, const StressScene& scene, const Say& say,
+                 DoneParts& done) {
   Analysis a;
   a.prepared = std::move(prepared);
   std::vector<Body> parts = bodies(a.prepared);
   if (scene.pieces != Pieces::each) refuse_fragments(parts, name);
   bool every_error_known = true;
   for (Body& part : parts) {
+    done.within = piece_name(a.bodies.size(), parts.size());
     BodyResult b;
     b.centre = centre_of(a.prepared, part);
     const Network network = [&] {
@@ -47,7 +53,7 @@ Analysis analyse(Prepared prepared, const std::string& name, const StressScene& 
       }
     }();
     b.bridges = network.bridges();
-    Judged judged = judged_response(network, b.centre, scene.hydrodynamics, say);
+    Judged judged = judged_response(network, b.centre, scene.hydrodynamics, say, done);
     b.loaded = {std::move(judged.response), pull_off_of(a.prepared, part, scene.material)};
     b.body = std::move(part);
     if (a.bodies.empty()) {
@@ -64,18 +70,25 @@ Analysis analyse(Prepared prepared, const std::string& name, const StressScene& 
   return a;
 }
 
-void run_flows(Analysis& analysis, const StressScene& scene) {
-  for (BodyResult& b : analysis.bodies) {
+void run_flows(Analysis& analysis, const StressScene& scene, DoneParts& done) {
+  for (std::size_t k = 0; k < analysis.bodies.size(); ++k) {
+    BodyResult& b = analysis.bodies[k];
+    done.within = piece_name(k, analysis.bodies.size());
     if (!b.loaded.pull_off.empty()) {
       const WorstContact worst =
           worst_contact(b.loaded.response.tension, b.loaded.pull_off, unit_gradient(FlowKind::elongation));
       b.worst = {worst.contact, worst.tension, worst.tension / b.loaded.pull_off[worst.contact]};
     }
-    if (scene.elongation) b.elongation = straining(b.loaded, unit_gradient(FlowKind::elongation), scene.straining);
-    if (scene.uniaxial) b.uniaxial = straining(b.loaded, unit_gradient(FlowKind::uniaxial), scene.straining);
-    if (scene.biaxial) b.biaxial = straining(b.loaded, unit_gradient(FlowKind::biaxial), scene.straining);
-    if (scene.shear) b.shear = shear(b.loaded, scene.orbit);
-    if (scene.history) b.history = follow_history(b.loaded, *scene.history, scene.orbit.starts, scene.orbit.tolerance);
+    const auto strained = [&](FlowKind kind, const char* flow) {
+      return straining(b.loaded, unit_gradient(kind), scene.straining, {&done, fmt::format("{}, start", flow)});
+    };
+    if (scene.elongation) b.elongation = strained(FlowKind::elongation, "elongation");
+    if (scene.uniaxial) b.uniaxial = strained(FlowKind::uniaxial, "uniaxial extension");
+    if (scene.biaxial) b.biaxial = strained(FlowKind::biaxial, "biaxial extension");
+    if (scene.shear) b.shear = shear(b.loaded, scene.orbit, {&done, "shear, orbit"});
+    if (scene.history)
+      b.history = follow_history(b.loaded, *scene.history, scene.orbit.starts, scene.orbit.tolerance,
+                                 {&done, "history, orbit"});
   }
 }
 

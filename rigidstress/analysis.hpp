@@ -30,10 +30,11 @@ struct Analysis {
   const BodyResult& weakest() const;
 };
 
-// Factorises: the response of every part. Throws InputError for several fragments unless the scene wants each.
-Analysis analyse(Prepared prepared, const std::string& name, const StressScene& scene, const Say& say);
+// Factorises: the response of every part. Throws InputError for several fragments unless the scene wants each. `done`
+// keeps the work of each.
+Analysis analyse(Prepared prepared, const std::string& name, const StressScene& scene, const Say& say, DoneParts& done);
 
 // Runs the flows on the responses.
-void run_flows(Analysis& analysis, const StressScene& scene);
+void run_flows(Analysis& analysis, const StressScene& scene, DoneParts& done);
 
 }  // namespace crumble::rigidstress

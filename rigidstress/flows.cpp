@@ -1,5 +1,6 @@
 #include "rigidstress/flows.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -53,6 +54,30 @@ bool settle(const TurningBody& turning, const Eigen::Matrix3d& gradient, double 
   return unrest(turning, q, gradient) < at_rest;
 }
 
+struct Rest {
+  Quaternion orientation = Quaternion::Identity();
+  bool settled = false;
+};
+
+// Of the starts from `first` on, before `end`.
+std::vector<Rest> settled_starts(const LoadedBody& body, const Eigen::Matrix3d& gradient, const StrainingChoice& choice,
+                                 int first, int end) {
+  const TurningBody turning = body.turning(1e-10);
+  std::vector<Rest> all;
+  for (int k = first; k < end; ++k) {
+    Rest rest{random_orientation(choice.seed, static_cast<std::uint32_t>(k))};
+    rest.settled = settle(turning, gradient, choice.longest_strain, rest.orientation);
+    all.push_back(rest);
+  }
+  return all;
+}
+
+void rest_fields(SavedFields& f, std::vector<Rest>& all) {
+  f.size("starts", all);
+  f.column("orientation", all, &Rest::orientation);
+  f.column("settled", all, &Rest::settled);
+}
+
 bool same_loads(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
   constexpr double resolution = 1e-3;  // an attractor approached slowly is known less well than its own rest
   return (a - b).cwiseAbs().maxCoeff() <= resolution * std::max(a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff());
@@ -60,7 +85,8 @@ bool same_loads(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
 
 }  // namespace
 
-StrainingResult straining(const LoadedBody& body, const Eigen::Matrix3d& gradient, const StrainingChoice& choice) {
+StrainingResult straining(const LoadedBody& body, const Eigen::Matrix3d& gradient, const StrainingChoice& choice,
+                          Keeping keeping) {
   StrainingResult result;
   if (body.pull_off.empty()) return result;
   const WorstContact worst = worst_contact(body.response.tension, body.pull_off, gradient);
@@ -70,13 +96,20 @@ StrainingResult straining(const LoadedBody& body, const Eigen::Matrix3d& gradien
   // Rounding leaves a drift of about 1e-14 where symmetry forbids any.
   result.is_turning = body.response.drift.bottomRows<3>().cwiseAbs().maxCoeff() > 1e-9;
 
-  const TurningBody turning = body.turning(1e-10);
+  constexpr int together = 64;
+  std::vector<Rest> rests;
+  for (int first = 0; first < choice.starts; first += together) {
+    const int end = std::min(first + together, choice.starts);
+    const std::vector<Rest> some = keeping.value(
+        static_cast<std::size_t>(first), [&] { return settled_starts(body, gradient, choice, first, end); },
+        rest_fields);
+    rests.insert(rests.end(), some.begin(), some.end());
+  }
   std::vector<Eigen::VectorXd> loads;
   const double share = 1.0 / choice.starts;
   int settled = 0;
-  for (int k = 0; k < choice.starts; ++k) {
-    Quaternion q = random_orientation(choice.seed, static_cast<std::uint32_t>(k));
-    if (!settle(turning, gradient, choice.longest_strain, q)) {
+  for (const auto& [q, is_settled] : rests) {
+    if (!is_settled) {
       result.unsettled += share;
       continue;
     }
@@ -99,6 +132,17 @@ StrainingResult straining(const LoadedBody& body, const Eigen::Matrix3d& gradien
     return std::abs(a.share - b.share) > 0.5 * share ? a.share > b.share : a.peak.use > b.peak.use;
   });
   return result;
+}
+
+void Orbit::fields(SavedFields& f) {
+  f("time", time);
+  f("orientation", orientation);
+  f("max_tension", max_tension);
+  f("peak.contact", peak.contact);
+  f("peak.tension", peak.tension);
+  f("peak.use", peak.use);
+  f("peak_at", peak_at);
+  f("mean_max_tension", mean_max_tension);
 }
 
 Orbit follow(const LoadedBody& body, const Quaternion& start, const std::vector<double>& times,
@@ -165,7 +209,7 @@ double tumbling_time(const Orbit& orbit, const Vector3& axis) {
 
 }  // namespace
 
-ShearResult shear(const LoadedBody& body, const ShearChoice& choice) {
+ShearResult shear(const LoadedBody& body, const ShearChoice& choice, Keeping keeping) {
   ShearResult result;
   const Eigen::Matrix3d gradient = unit_gradient(FlowKind::shear);
   if (!body.pull_off.empty()) {
@@ -178,8 +222,13 @@ ShearResult shear(const LoadedBody& body, const ShearChoice& choice) {
   const Vector3 axis = long_axis(body.response);
   const auto count = static_cast<double>(choice.starts.size());
   for (const Quaternion& start : choice.starts) {
-    result.orbits.push_back(follow(
-        body, start, times, [&](double) { return gradient; }, choice.tolerance));
+    result.orbits.push_back(keeping.value(
+        result.orbits.size(),
+        [&] {
+          return follow(
+              body, start, times, [&](double) { return gradient; }, choice.tolerance);
+        },
+        [](SavedFields& f, Orbit& orbit) { orbit.fields(f); }));
     const Orbit& orbit = result.orbits.back();
     result.mean_peak_tension += orbit.peak.tension / count;
     result.mean_tension += orbit.mean_max_tension / count;

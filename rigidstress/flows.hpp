@@ -10,6 +10,7 @@
 
 #include "common/hydro/flow_kind.hpp"
 #include "common/hydro/turning_body.hpp"
+#include "common/numerics/done_parts.hpp"
 #include "common/rigid/response.hpp"
 
 namespace crumble::rigidstress {
@@ -34,6 +35,17 @@ struct LoadedBody {
   TurningBody turning(double tolerance = 1e-8) const { return TurningBody(response.drift.bottomRows<3>(), tolerance); }
 };
 
+// Where starts and orbits are kept as they are done, and under which name: nowhere without.
+struct Keeping {
+  DoneParts* parts = nullptr;
+  std::string name;
+
+  template <class Compute, class Fields>
+  auto value(std::size_t number, Compute compute, Fields fields) const {
+    return parts ? parts->value(name + " " + std::to_string(number + 1), compute, fields) : compute();
+  }
+};
+
 // Flows without rotation: the body turns until it rests in one of a few orientations.
 struct Attractor {
   Quaternion orientation;
@@ -53,7 +65,8 @@ struct StrainingChoice {
   double longest_strain = 1e4;
   std::uint64_t seed = 1;
 };
-StrainingResult straining(const LoadedBody& body, const Eigen::Matrix3d& gradient, const StrainingChoice& choice);
+StrainingResult straining(const LoadedBody& body, const Eigen::Matrix3d& gradient, const StrainingChoice& choice,
+                          Keeping keeping = {});
 
 // A path through orientations.
 struct Orbit {
@@ -63,6 +76,7 @@ struct Orbit {
   Peak peak;                        // largest on the way
   std::size_t peak_at = 0;          // its instant
   double mean_max_tension = 0;      // over time
+  void fields(SavedFields& f);
 };
 
 struct ShearResult {
@@ -78,7 +92,7 @@ struct ShearChoice {
   double strain = 100, sample = 0.1;
   double tolerance = 1e-8;
 };
-ShearResult shear(const LoadedBody& body, const ShearChoice& choice);
+ShearResult shear(const LoadedBody& body, const ShearChoice& choice, Keeping keeping = {});
 
 // One orbit in a flow that may change in time, sampled at `times`; gradient_at(t) in 1/s.
 Orbit follow(const LoadedBody& body, const Quaternion& start, const std::vector<double>& times,

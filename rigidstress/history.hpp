@@ -34,6 +34,6 @@ struct HistoryResult {
   double mean_peak_tension = 0;
 };
 HistoryResult follow_history(const LoadedBody& body, const GradientHistory& history,
-                             const std::vector<Quaternion>& starts, double tolerance = 1e-8);
+                             const std::vector<Quaternion>& starts, double tolerance = 1e-8, Keeping keeping = {});
 
 }  // namespace crumble::rigidstress

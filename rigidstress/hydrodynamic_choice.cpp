@@ -23,6 +23,12 @@ RigidBodyResponse rigid_response(const Network& network, const Vector3& centre, 
   return rigid_body_response(hydrodynamics, network.position(), centre);
 }
 
+// Each is the work of minutes in large agglomerates.
+template <class Compute>
+RigidBodyResponse kept(DoneParts& parts, const std::string& name, Compute compute) {
+  return parts.value(name, compute, [](SavedFields& f, RigidBodyResponse& body) { body.fields(f); });
+}
+
 // The far field, by a dense factor (N^3) where that is cheaper and fits, else by iterations (N^2): one core of this
 // year takes 7 s to iterate at 1000 spheres and 12 s or more to factorise.
 constexpr int iterate_from = 500;  // spheres
@@ -118,19 +124,23 @@ double far_field_error(double change) { return std::max(0.03, 2 * change); }
 // Climbs the orders one by one.
 class Ladder {
  public:
-  Ladder(const Network& network, const Vector3& centre, const HydrodynamicChoice& choice, const Say& say)
-      : network_(network), centre_(centre), choice_(choice), say_(say) {}
+  Ladder(const Network& network, const Vector3& centre, const HydrodynamicChoice& choice, const Say& say,
+         DoneParts& parts)
+      : network_(network), centre_(centre), choice_(choice), say_(say), parts_(parts) {}
 
   // The far field is the lowest order; what lubrication changes in it stands for the change before.
   void start() {
-    const RigidBodyResponse far = far_field_response(network_, centre_, choice_, say_);
+    const RigidBodyResponse far =
+        kept(parts_, order_name(1), [&] { return far_field_response(network_, centre_, choice_, say_); });
     response_ = respond(network_, far);
     const Response with = respond(network_, with_relative_lubrication(network_, far, {}));
     changes_.push_back(tension_change(response_.tension, with.tension));
     order_ = first_ = 1;
   }
   void climb(int order) {
-    Response next = respond(network_, rigid_response(network_, centre_, {Rung::multipole, order}));
+    Response next = respond(network_, kept(parts_, order_name(order), [&] {
+                              return rigid_response(network_, centre_, {Rung::multipole, order});
+                            }));
     if (order_ > 0)
       changes_.push_back(tension_change(response_.tension, next.tension));
     else
@@ -152,6 +162,7 @@ class Ladder {
   Vector3 centre_;
   const HydrodynamicChoice& choice_;
   const Say& say_;
+  DoneParts& parts_;
   int order_ = 0, first_ = 0;
   Response response_;
   std::vector<double> changes_;
@@ -159,15 +170,18 @@ class Ladder {
 
 constexpr const char* by_far_field = "twice the difference to the far field without lubrication, 3 % at least";
 
-Judged two_rungs(const Network& network, const Vector3& centre, const HydrodynamicChoice& choice, const Say& say) {
+Judged two_rungs(const Network& network, const Vector3& centre, const HydrodynamicChoice& choice, const Say& say,
+                 DoneParts& parts) {
   if (choice.method == Method::fts_lubrication) require_memory(network.size(), 1, choice.memory);
-  const RigidBodyResponse far = far_field_response(network, centre, choice, say);
+  const RigidBodyResponse far =
+      kept(parts, order_name(1), [&] { return far_field_response(network, centre, choice, say); });
   const Response without = respond(network, far);
   Judged result;
   if (choice.method == Method::fts_lubrication) {
     HydroModel model = choice.lubrication;
     model.rung = Rung::fts_lubrication;
-    result.response = respond(network, rigid_response(network, centre, model));
+    result.response =
+        respond(network, kept(parts, "fts-lubrication", [&] { return rigid_response(network, centre, model); }));
     result.method = "fts-lubrication";
     result.how = "not estimated: pair lubrication on collective motion is not a step towards the exact solution";
     return result;
@@ -181,9 +195,10 @@ Judged two_rungs(const Network& network, const Vector3& centre, const Hydrodynam
   return result;
 }
 
-Judged one_order(const Network& network, const Vector3& centre, const HydrodynamicChoice& choice, const Say& say) {
+Judged one_order(const Network& network, const Vector3& centre, const HydrodynamicChoice& choice, const Say& say,
+                 DoneParts& parts) {
   require_memory(network.size(), choice.order, choice.memory);
-  Ladder ladder(network, centre, choice, say);
+  Ladder ladder(network, centre, choice, say, parts);
   // Three changes are what the estimate looks at; lower orders cost little.
   const int first = choice.estimate ? std::max(1, choice.order - 3) : choice.order;
   if (first == 1 && choice.estimate) ladder.start();
@@ -200,9 +215,10 @@ Judged one_order(const Network& network, const Vector3& centre, const Hydrodynam
   return result;
 }
 
-Judged cheapest(const Network& network, const Vector3& centre, const HydrodynamicChoice& choice, const Say& say) {
+Judged cheapest(const Network& network, const Vector3& centre, const HydrodynamicChoice& choice, const Say& say,
+                DoneParts& parts) {
   Judged result;
-  Ladder ladder(network, centre, choice, say);
+  Ladder ladder(network, centre, choice, say, parts);
   for (int order = 1; order <= highest_multipole_order; ++order) {
     if (order > 1 && memory_needed(network.size(), order) > choice.memory) {
       say(fmt::format(
@@ -243,18 +259,18 @@ double tension_change(const Eigen::MatrixXd& before, const Eigen::MatrixXd& afte
   return largest > 0 ? change / largest : 0;
 }
 
-Judged judged_response(const Network& network, const Vector3& centre, const HydrodynamicChoice& choice,
-                       const Say& say) {
+Judged judged_response(const Network& network, const Vector3& centre, const HydrodynamicChoice& choice, const Say& say,
+                       DoneParts& parts) {
   if (choice.method == Method::fts_lubrication)
     say("warning: fts-lubrication acts on the collective motion of near pairs and adds up over neighbours; in a rigid "
         "cluster it overestimates drag and tensions by tens of per cent. It is here to reproduce older work.");
   switch (choice.method) {
     case Method::automatic:
-      return cheapest(network, centre, choice, say);
+      return cheapest(network, centre, choice, say, parts);
     case Method::multipole:
-      return one_order(network, centre, choice, say);
+      return one_order(network, centre, choice, say, parts);
     default:
-      return two_rungs(network, centre, choice, say);
+      return two_rungs(network, centre, choice, say, parts);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "common/hydro/model.hpp"
+#include "common/numerics/done_parts.hpp"
 #include "common/rigid/response.hpp"
 
 namespace crumble::rigidstress {
@@ -39,8 +40,9 @@ double memory_needed(int spheres, int order);
 
 using Say = std::function<void(const std::string&)>;
 
-// centre: centre of mass, m. `say` hears of every rung and of warnings.
-Judged judged_response(const Network& network, const Vector3& centre, const HydrodynamicChoice& choice, const Say& say);
+// centre: centre of mass, m. `say` hears of every rung and of warnings; `parts` keeps the rungs.
+Judged judged_response(const Network& network, const Vector3& centre, const HydrodynamicChoice& choice, const Say& say,
+                       DoneParts& parts);
 
 // Change of the largest tension from one rung to the next, relative to it: the largest change among the contacts that
 // bear at least half as much, each in its own worst orientation. The largest alone may stand still by chance.

@@ -11,6 +11,8 @@
 #include "common/io/output_lock.hpp"
 #include "common/io/program.hpp"
 #include "common/io/provenance.hpp"
+#include "common/io/sha256.hpp"
+#include "common/io/state_keeper.hpp"
 #include "common/numerics/noise.hpp"
 #include "rigidstress/result.hpp"
 #include "rigidstress/stress_file.hpp"
@@ -31,7 +33,26 @@ ProgramDescription description() {
            {"rigidstress stress-elongation.toml stress.h5 -o more.h5 --set flow.uniaxial=true",
             "another flow, nothing factorised again"}},
           version_text("rigidstress"),
-          stress_parameters()};
+          stress_parameters(),
+          true};
+}
+
+// What is done belongs to the agglomerate and the history as they were.
+CheckpointOwner checkpoint_owner(const Scene& text, const Provenance& provenance) {
+  CheckpointOwner owner{"rigidstress", provenance.version,
+                        fmt::format("{}\n# of {}", text.resolved(), provenance.parent_sha256)};
+  for (const ReadFile& file : history_files(text)) owner.scene += "\n# and " + sha256_of_file(file.name);
+  return owner;
+}
+
+DoneParts saved_parts(const OutputCheckpoint& checkpoint) {
+  if (!checkpoint.found()) return {};
+  return checkpoint.restored([](SavedFields& f) {
+    SavedState saved;
+    f.part("done", saved);
+    f.require_all_read();
+    return DoneParts(std::move(saved));
+  });
 }
 
 int load(int argc, const char* const* argv) {
@@ -57,23 +78,38 @@ int load(int argc, const char* const* argv) {
   say(granule_line(text, parent));
   report_inputs(report, text, parent);
   std::optional<Analysis> analysis = restore(input, text, scene);
+  std::optional<Prepared> prepared;
   if (analysis) {
     say("the response of " + input + " is that of this scene: nothing is factorised");
-    if (line.check) return 0;
   } else {
-    Prepared prepared =
+    prepared =
         prepare(agglomerate, input, scene.radius, scene.material, scene.largest_gap, scene.pieces == Pieces::largest);
-    for (const std::string& fact : describe(prepared)) say(fact);
-    if (line.check) return 0;
-    analysis = analyse(std::move(prepared), input, scene, say);
+    for (const std::string& fact : describe(*prepared)) say(fact);
   }
-  run_flows(*analysis, scene);
+  if (line.check) return 0;
 
-  AgglomerateWriter writer(line.output, analysis->prepared.particles,
-                           {"rigidstress", provenance, text.given(), text.resolved(), "none"});
-  write_stress(writer, *analysis, scene);
-  write_properties(writer, properties_of(text, parent.properties));
-  writer.finish("relaxed");
+  const OutputCheckpoint checkpoint(line.output, checkpoint_owner(text, provenance));
+  if (line.restart) checkpoint.require();
+  if (checkpoint.found()) say("resuming from " + checkpoint.path());
+  if (const std::string left = checkpoint.leftovers(); !left.empty()) say(left);
+  report.add_earlier(checkpoint.used());
+  DoneParts done = saved_parts(checkpoint);
+  StateKeeper keeper(
+      checkpoint, scene.checkpoint_interval, [&](SavedFields& f) { done.fields(f); }, nullptr, say);
+  std::string part;
+  done.begins = [&](const std::string& name) { progress.in_hand(part = name); };
+  done.done = [&] { keeper.between_steps([&] { return "after " + part; }); };
+  keeper.guard([&] {
+    if (!analysis) analysis = analyse(std::move(*prepared), input, scene, say, done);
+    run_flows(*analysis, scene, done);
+    progress.in_hand("writing the file");
+    AgglomerateWriter writer(line.output, analysis->prepared.particles,
+                             {"rigidstress", provenance, text.given(), text.resolved(), "none"});
+    write_stress(writer, *analysis, scene);
+    write_properties(writer, properties_of(text, parent.properties));
+    writer.finish("relaxed");
+  });
+  checkpoint.remove();
   fill_report(report, *analysis, scene);
   deliver(result_text(*analysis, scene), [&] { report.write(line.report); });
   return 0;

@@ -98,6 +98,7 @@ const ParameterTable& stress_parameters() {
             .above(0)
             .at_most(1e-2)
             .by_default(1e-8)}},
+      {"output", "What the run keeps.", {checkpoint_interval_parameter()}},
       {"run", "The run itself.", {P::integer("seed", "Names the random orientations").at_least(0).by_default(1)}}};
   return table;
 }
@@ -153,6 +154,7 @@ StressScene stress_scene(const Scene& scene) {
   h.accuracy = scene.real("error.accuracy");
   h.memory = scene.real("hydrodynamics.memory");
   h.estimate = scene.flag("error.estimate");
+  s.checkpoint_interval = scene.real("output.checkpoint_interval");
   s.elongation = scene.flag("flow.elongation");
   s.shear = scene.flag("flow.shear");
   s.uniaxial = scene.flag("flow.uniaxial");
@@ -165,6 +167,10 @@ StressScene stress_scene(const Scene& scene) {
   s.orbit.sample = scene.real("flow.sample");
   s.orbit.tolerance = scene.real("flow.orientation_tolerance");
   if (s.orbit.sample > s.orbit.strain) throw scene.error("flow.sample", "is longer than flow.strain");
+  constexpr double most = 1e7;  // instants of an orbit, 40 bytes each
+  if (s.orbit.strain > most * s.orbit.sample)
+    throw scene.error("flow.sample", fmt::format("makes {:.2g} instants of every orbit; at least {:g} makes {:g}",
+                                                 s.orbit.strain / s.orbit.sample, s.orbit.strain / most, most));
   if (scene.is_set("flow.history")) {
     s.history = GradientHistory::read(history_files(scene).front().name, scene.real("flow.largest_history_step"));
   }
@@ -174,7 +180,8 @@ StressScene stress_scene(const Scene& scene) {
 std::string response_key(const Scene& scene) {
   std::string key;
   for (const Section& section : stress_parameters()) {
-    if (section.name == "fluid" || section.name == "flow" || section.name == "run") continue;
+    if (section.name == "fluid" || section.name == "flow" || section.name == "output" || section.name == "run")
+      continue;
     for (const Parameter& p : section.parameters) {
       const std::string name = section.name + "." + p.name;
       if (!scene.is_set(name)) continue;

@@ -28,7 +28,8 @@ struct StressScene {
   bool elongation = true, shear = true, uniaxial = false, biaxial = false;
   std::optional<GradientHistory> history;
   StrainingChoice straining;
-  ShearChoice orbit;  // its starts and tolerance are those of the history, too
+  ShearChoice orbit;                // its starts and tolerance are those of the history, too
+  double checkpoint_interval = 60;  // s of wall time
   std::uint64_t seed = 1;
 };
 
@@ -38,8 +39,8 @@ StressScene stress_scene(const Scene& scene);
 // The files that the scene itself names.
 std::vector<ReadFile> history_files(const Scene& scene);
 
-// Two resolved scenes with the same answer here have the same response of the same file: all sections but fluid, flow
-// and run.
+// Two resolved scenes with the same answer here have the same response of the same file: all sections but fluid,
+// flow, output and run.
 std::string response_key(const Scene& scene);
 
 }  // namespace crumble::rigidstress

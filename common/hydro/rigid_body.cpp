@@ -30,6 +30,16 @@ Eigen::Matrix<double, 6, 1> RigidBodyResponse::motion(const LinearFlow& flow) co
   return ambient + drift * flow.strain();
 }
 
+void RigidBodyResponse::fields(SavedFields& f) {
+  f("centre", centre);
+  f("motion_loads", motion_loads);
+  f("strain_loads", strain_loads);
+  f("drag", drag);
+  f("strain_drag", strain_drag);
+  f("drift", drift);
+  f("free_loads", free_loads);
+}
+
 RigidBodyResponse rigid_body_response(const Hydrodynamics& hydrodynamics, const std::vector<Vector3>& position,
                                       const Vector3& centre) {
   const Eigen::MatrixXd Z = rigid_motions(position, centre);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "common/hydro/hydrodynamics.hpp"
+#include "common/numerics/saved_fields.hpp"
 
 namespace crumble {
 
@@ -19,6 +20,7 @@ struct RigidBodyResponse {
   // Loads on every sphere of the body that nothing else holds, and its motion, in a linear flow.
   Eigen::VectorXd loads(const LinearFlow& flow) const { return free_loads * flow.strain(); }
   Eigen::Matrix<double, 6, 1> motion(const LinearFlow& flow) const;
+  void fields(SavedFields& f);
 };
 
 RigidBodyResponse rigid_body_response(const Hydrodynamics& hydrodynamics, const std::vector<Vector3>& position,

@@ -74,7 +74,7 @@ std::uint64_t chunk_rows(std::uint64_t row_bytes, std::uint64_t rows_of_a_frame)
 
 AgglomerateWriter::AgglomerateWriter(std::filesystem::path path, const Particles& particles,
                                      const FileDescription& description)
-    : path_(std::move(path)) {
+    : path_(std::move(path)), removed_(temporary()) {
   if (!schema::stage_named(description.stage)) mistake("stage", description.stage + " is not one");
   if (particles.size() == 0 || particles.mass.size() != particles.size())
     mistake("/particles/all", "needs a radius and a mass for each particle");
@@ -89,15 +89,11 @@ AgglomerateWriter::AgglomerateWriter(std::filesystem::path path, const Particles
   }
 }
 
-AgglomerateWriter::AgglomerateWriter(std::filesystem::path path, hdf5::File file)
-    : path_(std::move(path)), file_(std::move(file)), identity_(file_identity(temporary())), resumed_(true) {}
-
 AgglomerateWriter::~AgglomerateWriter() {
   if (!open_ || file_.id() < 0) return;
   rows_.clear();
   series_.clear();
   file_ = {};
-  if (resumed_) return;  // the checkpoint is worth nothing without it
   std::error_code ignored;
   std::filesystem::remove(temporary(), ignored);
 }
@@ -396,13 +392,7 @@ void AgglomerateWriter::write_pending(Series& series) {
   series.values.clear();
 }
 
-void AgglomerateWriter::flush() {
-  for (auto& [name, series] : series_) write_pending(series);
-  file_.flush();
-}
-
-void AgglomerateWriter::suspend() {
-  flush();
+void AgglomerateWriter::close() {
   open_ = false;
   rows_.clear();
   series_.clear();
@@ -416,12 +406,13 @@ void AgglomerateWriter::finish(const std::string& state) {
   pairs.set_reference_attribute("particles_group", "/particles/all");
   auto module = file_.group("/h5md/modules/agglomerate");
   module.set_attribute("state", state);
-  flush();  // everything is on disk before the file says so
+  for (auto& [name, series] : series_) write_pending(series);
+  file_.flush();  // everything is on disk before the file says so
   const std::array<std::uint8_t, 1> complete{1};
   module.set_attribute<std::uint8_t>("complete", complete, true);
   module = {};
   pairs = {};
-  suspend();
+  close();
   require_complete();
   publish(temporary(), path_);
 }

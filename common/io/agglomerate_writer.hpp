@@ -14,6 +14,7 @@
 
 #include "common/agglomerate/agglomerate.hpp"
 #include "common/io/hdf5.hpp"
+#include "common/io/interrupt.hpp"
 #include "common/io/provenance.hpp"
 
 namespace crumble {
@@ -34,11 +35,9 @@ class AgglomerateWriter {
  public:
   AgglomerateWriter(std::filesystem::path path, const Particles& particles, const FileDescription& description);
 
-  // Continues a file that an earlier process suspended; frames and samples after `last_step` are dropped.
-  static AgglomerateWriter resume(std::filesystem::path path, std::int64_t last_step);
-
-  AgglomerateWriter(AgglomerateWriter&&) = default;
-  ~AgglomerateWriter();  // removes the temporary file unless finished, suspended or resumed
+  AgglomerateWriter(const AgglomerateWriter&) = delete;
+  AgglomerateWriter& operator=(const AgglomerateWriter&) = delete;
+  ~AgglomerateWriter();  // removes the temporary file unless finished
 
   // Steps and times must increase. Every frame has the same fields and the same observables as the first; those of the
   // table that follow from the frame (radius of gyration, fragments and so on) are computed here.
@@ -55,11 +54,6 @@ class AgglomerateWriter {
   void put(const std::string& path, double value, const std::string& method = "");
   void put_attribute(const std::string& path, const std::string& value);  // OBJECT@NAME
 
-  std::size_t frame_count() const { return frames_; }
-
-  void flush();    // what was appended so far is on disk, for a checkpoint
-  void suspend();  // keeps PATH.tmp for resume(); nothing can be appended any more
-
   // State: drying, dry, relaxed or broken. What gets the name has been read again and found valid, and is on the disk.
   void finish(const std::string& state);
 
@@ -72,11 +66,9 @@ class AgglomerateWriter {
     std::vector<std::int64_t> steps;
     std::vector<double> times, values;
   };
-  AgglomerateWriter(std::filesystem::path path, hdf5::File file);
   std::filesystem::path temporary() const { return path_.string() + ".tmp"; }
   void write_head(const Particles& particles, const FileDescription& description);
   void write_provenance(const Provenance& provenance);
-  void truncate(std::int64_t last_step);
   hdf5::Dataset& rows(const std::string& path);
   template <class T>
   void append_frame_rows(const std::string& path, std::span<const T> values);
@@ -84,6 +76,7 @@ class AgglomerateWriter {
   void append_contacts(const std::vector<Contact>& contacts);
   void append_observables(const Frame& frame, const Observables& observables);
   void write_pending(Series& series);
+  void close();
   void require_complete() const;
 
   std::filesystem::path path_;
@@ -97,7 +90,8 @@ class AgglomerateWriter {
   std::uint64_t frames_ = 0, contacts_ = 0;
   std::int64_t last_step_ = 0;
   double last_time_ = 0;
-  bool open_ = true, resumed_ = false;
+  bool open_ = true;
+  RemovedAtSuddenEnd removed_;
 };
 
 }  // namespace crumble

@@ -2,10 +2,11 @@
 
 #include <fmt/core.h>
 
-#include "common/io/errors.hpp"
-#include "common/io/hdf5.hpp"
-#include "common/io/in_child.hpp"
+#include <algorithm>
+
+#include "common/io/file_errors.hpp"
 #include "common/io/output_file.hpp"
+#include "common/io/state_stream.hpp"
 
 namespace crumble {
 
@@ -22,91 +23,66 @@ std::string first_difference(const std::string& before, const std::string& now) 
   return fmt::format("'{}' then, '{}' now", line(before), line(now));
 }
 
+// When to save is no part of what is computed.
+std::string without_interval(const std::string& scene) {
+  const auto begin = scene.find("\ncheckpoint_interval ");
+  if (begin == std::string::npos) return scene;
+  return scene.substr(0, begin) + scene.substr(std::min(scene.find('\n', begin + 1), scene.size()));
+}
+
 constexpr const char *used_wall = "used.wall_s", *used_cpu = "used.cpu_s";
 void used_fields(SavedFields& f, Cost& used) {
   f(used_wall, used.wall_s);
   f(used_cpu, used.cpu_s);
 }
 
-template <class T>
-void write_arrays(hdf5::File& file, const std::map<std::string, std::vector<T>>& arrays) {
-  for (const auto& [name, values] : arrays)
-    file.create_dataset<T>("/restart/" + name, {values.size()}).write(std::span<const T>(values));
-}
-
-SavedState read_restart(const std::filesystem::path& path, const CheckpointOwner& owner) {
-  const hdf5::File file = hdf5::File::open(path);
-  if (file.kind("/restart") != hdf5::Kind::group || file.kind("/restart/scene") != hdf5::Kind::dataset)
-    throw ContentError(path.string() + ": not a checkpoint (no /restart)");
-  const hdf5::Group group = file.group("/restart");
-  const auto refuse = [&](const std::string& what) {
-    throw InputError(fmt::format("{}: {}; remove it to start anew, or run what it was made by", path.string(), what));
-  };
-  const std::string program = group.text_attribute("program").at(0), version = group.text_attribute("version").at(0);
-  if (program != owner.program) refuse("a checkpoint of " + program + ", not of " + owner.program);
-  if (version != owner.version) refuse("made by version " + version + ", this is " + owner.version);
-  const std::string scene = file.dataset("/restart/scene").read_text();
-  if (scene != owner.scene) refuse("made from another scene: " + first_difference(scene, owner.scene));
-
-  SavedState state;
-  for (const std::string& name : group.names()) {
-    if (name == "scene") continue;
-    const hdf5::Dataset dataset = file.dataset("/restart/" + name);
-    if (dataset.type() == hdf5::Type::float64) state.reals[name] = dataset.read<double>();
-    if (dataset.type() == hdf5::Type::int64) state.integers[name] = dataset.read<std::int64_t>();
-  }
-  return state;
-}
+// The last figure is that of the format.
+constexpr std::string_view heading = "Crumble checkpoint 2\n";
+constexpr std::uint64_t digest_size = 64;  // hexadecimal digits, at the end
 
 }  // namespace
 
 void save_checkpoint(const std::filesystem::path& path, const CheckpointOwner& owner, const SavedState& state) {
-  const std::filesystem::path temporary = path.string() + ".tmp";
-  // No half of it is left on a full disk.
-  struct Remover {
-    const std::filesystem::path& name;
-    bool armed = true;
-    ~Remover() {
-      std::error_code ignored;
-      if (armed) std::filesystem::remove(name, ignored);
-    }
-  } remover{temporary};
-  hdf5::File file = hdf5::File::create(temporary);
-  hdf5::Group group = file.create_group("/restart");
-  group.set_attribute("program", std::string_view(owner.program));
-  group.set_attribute("version", std::string_view(owner.version));
-  file.write_text("/restart/scene", owner.scene);
-  write_arrays(file, state.reals);
-  write_arrays(file, state.integers);
-  file.close();
-  publish(temporary, path);
-  remover.armed = false;
+  TextFile file(path);
+  Sha256 digest;
+  const auto put = [&](std::span<const char> bytes) {
+    file.stream().write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    digest.add(bytes);
+  };
+  put(heading);
+  for (const std::string* text : {&owner.program, &owner.version, &owner.scene}) put_text(*text, put);
+  put_state(state, put);
+  file.stream() << digest.hex();
+  file.finish();
 }
 
 SavedState load_checkpoint(const std::filesystem::path& path, const CheckpointOwner& owner) {
-  in_child(path, [&] { return read_restart(path, owner), std::string(); });
-  return read_restart(path, owner);
-}
-
-void keep_and_rethrow(const std::function<void()>& keep) {
-  std::string problem;
+  StateReader reader(path);
+  if (reader.left() < heading.size() + digest_size || reader.exactly(heading.size()) != heading)
+    throw ContentError(path.string() + ": not a checkpoint of this version; remove it to start anew");
+  CheckpointOwner writer;
+  SavedState state;
   try {
-    keep();
-  } catch (const std::exception& error) {
-    problem = error.what();
+    for (std::string* text : {&writer.program, &writer.version, &writer.scene}) *text = reader.text();
+    state = reader.state();
+    if (reader.left() != digest_size) reader.damaged();
+    const std::string digest = reader.digest().hex();
+    if (reader.exactly(digest_size) != digest) reader.damaged();
+  } catch (const ContentError& error) {
+    throw ContentError(std::string(error.what()) + "; remove it to start anew");
   }
-  if (problem.empty()) throw;
-  try {
-    throw;
-  } catch (const Interrupted& stop) {
-    throw Interrupted(stop.signal, fmt::format("{}; the state cannot be kept: {}", stop.what(), problem));
-  }
+  const auto refuse = [&](const std::string& what) {
+    throw InputError(fmt::format("{}: {}; remove it to start anew, or run what it was made by", path.string(), what));
+  };
+  if (writer.program != owner.program) refuse("a checkpoint of " + writer.program + ", not of " + owner.program);
+  if (writer.version != owner.version) refuse("made by version " + writer.version + ", this is " + owner.version);
+  if (writer.scene != owner.scene) refuse("made from another scene: " + first_difference(writer.scene, owner.scene));
+  return state;
 }
 
 OutputCheckpoint::OutputCheckpoint(const std::string& output, CheckpointOwner owner)
-    : path_(output + ".checkpoint"),
-      owner_(std::move(owner)),
-      found_(std::filesystem::exists(path_) && std::filesystem::exists(output + ".tmp")) {
+    : output_(output), path_(output + ".checkpoint"), owner_(std::move(owner)), found_(std::filesystem::exists(path_)) {
+  owner_.scene = without_interval(owner_.scene);
   if (!found_) return;
   stored_ = load_checkpoint(path_, owner_);
   Cost used = restored([](SavedFields& f) {
@@ -123,19 +99,32 @@ void OutputCheckpoint::refuse(const std::string& what) const {
       fmt::format("{}: {}: it was made by another build of this program; remove it to start anew", path_, what));
 }
 
-void OutputCheckpoint::store(const std::function<void(SavedFields&)>& visit) const {
+std::string OutputCheckpoint::leftovers() const {
+  std::string names;
+  for (const char* ending : {".tmp", ".frames", ".checkpoint.tmp"}) {
+    std::error_code ignored;
+    if (found_ && ending == std::string_view(".frames")) continue;
+    if (std::filesystem::remove(output_ + ending, ignored)) names += (names.empty() ? "" : ", ") + output_ + ending;
+  }
+  if (names.empty()) return "";
+  return fmt::format("removed what a run left that was killed: {}{}", names,
+                     found_ ? "" : "; there is no checkpoint, so this one begins anew");
+}
+
+SavedState OutputCheckpoint::collect(const std::function<void(SavedFields&)>& visit) const {
   SavedState state;
   SavedFields f = SavedFields::saver(state);
   Cost used = meter_.used();
   used_fields(f, used);
   visit(f);
-  save_checkpoint(path_, owner_, state);
+  return state;
 }
+
+void OutputCheckpoint::write(const SavedState& state) const { save_checkpoint(path_, owner_, state); }
 
 void OutputCheckpoint::require() const {
   if (found_) return;
-  throw InputError(fmt::format(
-      "--restart: there is no {} with its unfinished output; without --restart the run begins at its start", path_));
+  throw InputError(fmt::format("--restart: there is no {}; without --restart the run begins at its start", path_));
 }
 
 void OutputCheckpoint::remove() const { std::filesystem::remove(path_); }

@@ -1,8 +1,9 @@
-// The exact state of an interrupted run, private to the program that wrote it.
+// The exact state of a run that is not over, private to the program that wrote it.
 #pragma once
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "common/io/cost.hpp"
@@ -15,19 +16,15 @@ struct CheckpointOwner {
   std::string program, version, scene;  // scene: the resolved text
 };
 
-// The arrays of the state stored to the bit under /restart. Written under a temporary name and renamed: there is always
-// one whole checkpoint or none.
+// The arrays of the state stored to the bit, with a SHA-256 of all of the file. Written under a temporary name, put on
+// the disk and renamed: there is always one whole checkpoint or none.
 void save_checkpoint(const std::filesystem::path& path, const CheckpointOwner& owner, const SavedState& state);
 
 // Throws InputError saying which of program, version and scene differs and what to do, ContentError if the file is not
-// a checkpoint.
+// a checkpoint, or not as it was written.
 SavedState load_checkpoint(const std::filesystem::path& path, const CheckpointOwner& owner);
 
-// For the catch around a run: `keep` puts its state on the disk, then what ended the run goes on. If it was a signal
-// and the state cannot be kept, the message says so.
-[[noreturn]] void keep_and_rethrow(const std::function<void()>& keep);
-
-// OUTPUT.checkpoint beside the unfinished OUTPUT.tmp: what the checkpoints of all programs share.
+// OUTPUT.checkpoint: what the checkpoints of all programs share.
 class OutputCheckpoint {
  public:
   // Finds a checkpoint of `output`, if there is one; throws InputError if it belongs to another scene or version.
@@ -35,15 +32,17 @@ class OutputCheckpoint {
 
   bool found() const { return found_; }
   const std::string& path() const { return path_; }
+  // What a run that was killed has left beside the output and is of no use, in words; it is removed.
+  std::string leftovers() const;
   // Throws InputError, saying what was looked for, if none was found.
   void require() const;
   void remove() const;
   // What the processes used that made the checkpoint; zero without one.
   const Cost& used() const { return meter_.earlier(); }
 
- protected:
-  // Stores what `visit` lists.
-  void store(const std::function<void(SavedFields&)>& visit) const;
+  // What `visit` lists, and what was used so far.
+  SavedState collect(const std::function<void(SavedFields&)>& visit) const;
+  void write(const SavedState& state) const;
   // The answer of `use` to the stored fields; throws InputError naming the field that is missing or not known.
   template <class Use>
   auto restored(Use use) const {
@@ -58,7 +57,7 @@ class OutputCheckpoint {
  private:
   [[noreturn]] void refuse(const std::string& what) const;
 
-  std::string path_;
+  std::string output_, path_;
   CheckpointOwner owner_;
   bool found_;
   SavedState stored_;

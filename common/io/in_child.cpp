@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -16,6 +17,7 @@
 #include <system_error>
 
 #include "common/io/file_errors.hpp"
+#include "common/io/interrupt.hpp"
 
 namespace crumble {
 
@@ -87,6 +89,9 @@ std::string in_child(const std::filesystem::path& file, const std::function<std:
     throw std::system_error(errno, std::generic_category(), "fork");
   }
   if (child == 0) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    std::signal(SIGINT, SIG_DFL);
+    std::signal(SIGTERM, SIG_DFL);
     close(ends[0]);
     limit_child(ignored ? 0 : size);
     write_all(ends[1], outcome(work));
@@ -99,6 +104,7 @@ std::string in_child(const std::filesystem::path& file, const std::function<std:
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || text.empty()) {
+    if (const int stopped = interrupt_signal()) throw Interrupted(stopped);  // Ctrl-C is for the child, too
     const bool slow = WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL);
     throw ContentError(fmt::format("{}: is damaged: the HDF5 library {} on it", file.string(),
                                    slow ? "does not come to an end" : "crashes"));

@@ -57,7 +57,7 @@ bool are_one(const fs::path& a, const fs::path& b) {
 
 // All that a program may leave beside a file while it works: those of text have no checkpoint.
 std::vector<std::string> endings(const WrittenFile& file) {
-  if (file.has_checkpoint) return {"", ".tmp", ".lock", ".checkpoint", ".checkpoint.tmp"};
+  if (file.has_checkpoint) return {"", ".tmp", ".lock", ".frames", ".checkpoint", ".checkpoint.tmp"};
   return {"", ".tmp", ".lock"};
 }
 
@@ -203,6 +203,7 @@ TextFile::TextFile(const fs::path& name) {
                              ? open(name_.c_str(), O_WRONLY | O_CLOEXEC)
                              : open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0666);
   if (descriptor < 0) throw OpenError(fmt::format("{}: cannot be created: {}", name.string(), reason(errno)));
+  if (!temporary_.empty()) removed_.emplace(temporary_);
   buffer_ = std::make_unique<DescriptorBuffer>(descriptor);
   stream_.rdbuf(buffer_.get());
 }

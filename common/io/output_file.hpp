@@ -4,11 +4,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
+
+#include "common/io/interrupt.hpp"
 
 namespace crumble {
 
@@ -22,7 +25,7 @@ bool is_stream(const std::filesystem::path& name);
 struct WrittenFile {
   std::string what, name;
   bool is_text = false;         // else it must be a file that can be read back
-  bool has_checkpoint = false;  // NAME.checkpoint stands beside it
+  bool has_checkpoint = false;  // NAME.checkpoint and NAME.frames stand beside it
 };
 struct ReadFile {
   std::string what, name;
@@ -51,6 +54,7 @@ class TextFile {
 
  private:
   std::filesystem::path name_, temporary_;  // no temporary: a stream
+  std::optional<RemovedAtSuddenEnd> removed_;
   std::unique_ptr<std::streambuf> buffer_;
   std::ostream stream_{nullptr};
   bool finished_ = false;

@@ -153,6 +153,7 @@ OutputLock::OutputLock(const std::filesystem::path& output) {
       refuse_held(owner, fmt::format("if that run has ended, remove {}", file_.string()));
     break;
   }
+  removed_ = std::make_unique<RemovedAtSuddenEnd>(file_);
   const std::string text = LockOwner::of_this_process().text();
   if (const int error = write_anew(descriptor_, text)) {
     unlink(file_.c_str());
@@ -161,7 +162,9 @@ OutputLock::OutputLock(const std::filesystem::path& output) {
 }
 
 OutputLock::OutputLock(OutputLock&& other) noexcept
-    : file_(std::move(other.file_)), descriptor_(std::exchange(other.descriptor_, -1)) {}
+    : file_(std::move(other.file_)),
+      descriptor_(std::exchange(other.descriptor_, -1)),
+      removed_(std::move(other.removed_)) {}
 
 OutputLock::~OutputLock() {
   if (descriptor_ < 0) return;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -38,6 +39,7 @@ class OutputLock {
  private:
   std::filesystem::path file_;
   int descriptor_ = -1;
+  std::unique_ptr<RemovedAtSuddenEnd> removed_;
 };
 
 // All that a program writes is its own as long as this lives.

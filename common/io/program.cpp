@@ -15,6 +15,7 @@
 #include <cstring>
 #include <exception>
 #include <new>
+#include <system_error>
 
 #include "common/io/errors.hpp"
 #include "common/io/interrupt.hpp"
@@ -36,8 +37,8 @@ std::string cut_to_width(std::string line, std::FILE* terminal) {
 }
 
 // Seconds from one report to the next: a live line changes twice a second; a log gets a line every 2 s at first and
-// every minute in the end, so that neither a short run is silent nor a long one fills the disk.
-double interval(bool live, double elapsed) { return live ? 0.5 : std::clamp(elapsed / 10, 2.0, 60.0); }
+// every 5 s in the end, 1 MB a day.
+double interval(bool live, double elapsed) { return live ? 0.5 : std::clamp(elapsed / 10, 2.0, 5.0); }
 
 // A program may be started with these closed, as daemons are. The first file that it opens would get such a number, and
 // messages would go into it.
@@ -68,7 +69,10 @@ int run_program(const std::string& name, const std::function<int()>& body) {
   open_standard_streams();
   std::signal(SIGPIPE, SIG_IGN);  // a reader of our messages that goes away must not end the run
   std::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is then an error of the write, as a full disk is
-  watch_for_interrupts();
+  watch_for_interrupts(name);
+  struct Watch {
+    ~Watch() { end_watch(); }
+  } watch;
   try {
     require_stack();
     return body();
@@ -102,13 +106,25 @@ void deliver(const std::string& answer, const std::function<void()>& write_repor
 
 ProgressPrinter::ProgressPrinter(std::FILE* out, std::string label, bool quiet)
     : out_(out),
-      progress_(std::move(label)),
+      label_(std::move(label)),
+      progress_(label_),
       quiet_(quiet),
       live_(::isatty(::fileno(out)) == 1),
-      begin_(std::chrono::steady_clock::now()),
-      due_(begin_) {}
+      begin_(Clock::now()),
+      due_(begin_),
+      last_(begin_),
+      heard_(begin_) {
+  if (quiet) return;
+  try {
+    heart_ = std::jthread([this](const std::stop_token& stop) { beat(stop); });
+  } catch (const std::system_error&) {
+  }  // a limit on threads: then long steps are silent
+}
 
-ProgressPrinter::~ProgressPrinter() { clear(); }
+ProgressPrinter::~ProgressPrinter() {
+  heart_ = {};
+  clear();
+}
 
 void ProgressPrinter::clear() {
   if (!on_screen_) return;
@@ -117,29 +133,69 @@ void ProgressPrinter::clear() {
   on_screen_ = false;
 }
 
-void ProgressPrinter::update(double fraction, std::int64_t steps, const std::function<std::string()>& status) {
-  if (quiet_) return;
-  const auto now = std::chrono::steady_clock::now();
-  if (now < due_) return;
-  const bool first = due_ == begin_;
-  const double elapsed = std::chrono::duration<double>(now - begin_).count();
-  due_ = now + std::chrono::milliseconds(std::lround(1000 * interval(live_, elapsed)));
-  const std::string line = progress_.line(elapsed, fraction, steps, status());
+void ProgressPrinter::print(const std::string& line) {
   if (live_) {
     clear();
     std::fputs(cut_to_width(line, out_).c_str(), out_);
     on_screen_ = true;
-  } else if (!first) {  // nothing is known yet
+  } else {
     std::fprintf(out_, "%s\n", line.c_str());
   }
   std::fflush(out_);
+  last_ = Clock::now();
+}
+
+// Within a long step nobody calls update().
+void ProgressPrinter::beat(const std::stop_token& stop) {
+  const std::chrono::milliseconds silence(live_ ? 1000 : 7000);  // longer than what update() leaves
+  std::unique_lock lock(mutex_);
+  while (!stop.stop_requested()) {
+    const auto next = last_ + silence;
+    if (next > Clock::now()) {
+      woken_.wait_until(lock, stop, next, [] { return false; });
+      continue;
+    }
+    const double seconds = std::chrono::duration<double>(Clock::now() - heard_).count();
+    print(fmt::format("{}: {} for {}", last_line_.empty() ? label_ : last_line_, hand_, duration_text(seconds)));
+  }
+}
+
+void ProgressPrinter::in_hand(const std::string& what) {
+  if (quiet_) return;
+  const std::lock_guard lock(mutex_);
+  hand_ = what;
+  heard_ = Clock::now();
+}
+
+void ProgressPrinter::begin(std::string label) {
+  const std::lock_guard lock(mutex_);
+  label_ = std::move(label);
+  progress_ = Progress(label_);
+  last_line_.clear();
+  begin_ = due_ = heard_ = Clock::now();
+}
+
+void ProgressPrinter::update(double fraction, std::int64_t steps, const std::function<std::string()>& status) {
+  if (quiet_) return;
+  const auto now = Clock::now();
+  if (now < due_) return;
+  const std::lock_guard lock(mutex_);
+  const bool first = due_ == begin_;
+  const double elapsed = std::chrono::duration<double>(now - begin_).count();
+  due_ = now + std::chrono::milliseconds(std::lround(1000 * interval(live_, elapsed)));
+  last_line_ = progress_.line(elapsed, fraction, steps, status());
+  hand_ = "in one step";
+  heard_ = now;
+  if (live_ || !first) print(last_line_);  // in a log nothing is known yet
 }
 
 void ProgressPrinter::say(const std::string& message) {
   if (quiet_) return;
+  const std::lock_guard lock(mutex_);
   clear();
   std::fprintf(out_, "%s\n", message.c_str());
   std::fflush(out_);
+  last_ = Clock::now();
 }
 
 }  // namespace crumble

@@ -2,9 +2,13 @@
 #pragma once
 
 #include <chrono>
+#include <condition_variable>
 #include <cstdio>
 #include <functional>
+#include <mutex>
+#include <stop_token>
 #include <string>
+#include <thread>
 
 #include "common/io/progress.hpp"
 
@@ -19,7 +23,8 @@ int run_program(const std::string& name, const std::function<int()>& body);
 void deliver(
     const std::string& answer, const std::function<void()>& write_report = [] {});
 
-// One line per report interval, on a terminal one live line instead; nothing when quiet.
+// One line per report interval, on a terminal one live line instead; nothing when quiet. Where nothing is heard for
+// seconds, a thread says what is in hand and for how long.
 class ProgressPrinter {
  public:
   ProgressPrinter(std::FILE* out, std::string label, bool quiet);
@@ -29,15 +34,27 @@ class ProgressPrinter {
 
   // Call as often as you like; `status` is asked for only when a line is due.
   void update(double fraction, std::int64_t steps, const std::function<std::string()>& status);
+  // Another run is reported from now on.
+  void begin(std::string label);
+  // What takes its time from now on: "filling the droplet".
+  void in_hand(const std::string& what);
   // Prints a line of its own, above the live line if there is one.
   void say(const std::string& message);
 
  private:
+  using Clock = std::chrono::steady_clock;
   void clear();
+  void print(const std::string& line);
+  void beat(const std::stop_token& stop);
+
   std::FILE* out_;
+  std::string label_, last_line_, hand_ = "getting ready";
   Progress progress_;
   bool quiet_, live_, on_screen_ = false;
-  std::chrono::steady_clock::time_point begin_, due_;
+  Clock::time_point begin_, due_, last_, heard_;  // last printed, last heard of
+  std::mutex mutex_;
+  std::condition_variable_any woken_;
+  std::jthread heart_;
 };
 
 }  // namespace crumble

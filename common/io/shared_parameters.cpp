@@ -76,6 +76,15 @@ ContactChoice contact_in(const Scene& scene) {
   return c;
 }
 
+Parameter checkpoint_interval_parameter() {
+  return P::real(
+             "checkpoint_interval", "s",
+             "Wall time from one checkpoint on the disk to the next, which is all that is lost if the run is killed; "
+             "0: only when a signal stops it. Results do not depend on it")
+      .at_least(0)
+      .by_default(60);
+}
+
 Section fluid_section() {
   return {"fluid",
           "The liquid: in the droplet, and around the agglomerate.",

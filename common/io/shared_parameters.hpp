@@ -22,6 +22,9 @@ Section contact_section();
 Parameter rolling_stiffness_parameter();
 ContactChoice contact_in(const Scene& scene);
 
+// [output]: how often a run saves its state, s.
+Parameter checkpoint_interval_parameter();
+
 // [fluid]: the liquid in the droplet, or around the agglomerate.
 Section fluid_section();
 

@@ -26,10 +26,38 @@ void SavedFields::operator()(const std::string& name, Eigen::VectorXd& vector) {
   if (loading()) vector = Eigen::Map<const Eigen::VectorXd>(list.data(), static_cast<Eigen::Index>(list.size()));
 }
 
+void SavedFields::operator()(const std::string& name, Eigen::MatrixXd& matrix) {
+  std::array<Eigen::Index, 2> size{matrix.rows(), matrix.cols()};
+  (*this)(name + ".size", size);
+  Eigen::VectorXd list = matrix.reshaped();
+  (*this)(name, list);
+  if (!loading()) return;
+  if (size[0] < 0 || size[1] < 0 || size[0] * size[1] != list.size())
+    throw SavedFieldError("the field '" + prefix_ + name + "' has a wrong size");
+  matrix = list.reshaped(size[0], size[1]);
+}
+
 SavedFields SavedFields::in(const std::string& name) const {
   SavedFields inside = *this;
   inside.prefix_ += name + ".";
   return inside;
+}
+
+void SavedFields::part(const std::string& name, SavedState& part) {
+  const std::string prefix = prefix_ + name + ".";
+  const auto copy = [&](auto& all, auto& some) {
+    if (!loading()) {
+      for (const auto& [inside, numbers] : some) all[prefix + inside] = numbers;
+      return;
+    }
+    some.clear();
+    for (auto it = all.lower_bound(prefix); it != all.end() && it->first.starts_with(prefix); ++it) {
+      some[it->first.substr(prefix.size())] = it->second;
+      store_->read[it->first] = it->second.size();
+    }
+  };
+  copy(store_->state->reals, part.reals);
+  copy(store_->state->integers, part.integers);
 }
 
 void SavedFields::require_all_read() const {

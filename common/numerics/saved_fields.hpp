@@ -93,6 +93,7 @@ class SavedFields {
     });
   }
   void operator()(const std::string& name, Eigen::VectorXd& vector);
+  void operator()(const std::string& name, Eigen::MatrixXd& matrix);
   template <class T>
   void operator()(const std::string& name, std::optional<T>& value) {
     std::vector<T> list;
@@ -124,6 +125,9 @@ class SavedFields {
   }
   // The fields of a part, called NAME.field.
   SavedFields in(const std::string& name) const;
+
+  // A state that is there already, all of it, as part NAME: loading takes every array of that part.
+  void part(const std::string& name, SavedState& state);
 
   // After loading: throws SavedFieldError if the state has more than what was asked for.
   void require_all_read() const;

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <fstream>
+#include <filesystem>
 
 #include "breaker/breakup_checkpoint.hpp"
 #include "tests/breaker/samples.hpp"
@@ -49,14 +49,21 @@ TEST_P(BreakupRestart, ContinuesToTheSameBitsBeforeAndAfterBreakup) {
   for (const int stop : {broken / 2 + 1, broken + 1, (broken + steps) / 2}) {
     BreakupRun first(scene, start, 1);
     for (int k = 0; k < stop; ++k) first.step();
-    std::ofstream(output + ".tmp") << "the unfinished output";
     const CheckpointOwner owner{"breaker", "1", "scene"};
-    BreakupCheckpoint(output, owner).save(first, {.next_sample = 5, .companion = 7});
-    const BreakupCheckpoint found(output, owner);
+    Progression progression{.next_sample = 5, .companion = 7};
+    const OutputCheckpoint checkpoint(output, owner);
+    checkpoint.write(checkpoint.collect([&](SavedFields& f) {
+      FrameLog::Mark().fields(f.in("frames"));
+      save_breakup(f, progression, save(whole), first);
+    }));
+    const OutputCheckpoint found(output, owner);
     ASSERT_TRUE(found.found());
-    EXPECT_EQ(found.progression().companion, 7);
+    SavedBreakup saved = saved_breakup(found);
+    EXPECT_EQ(saved.progression.companion, 7);
+    EXPECT_EQ(field_names(saved.companion), field_names(save(whole)));
     BreakupRun second(scene, start, 1);
-    found.resume(second);
+    resume(second, found, std::move(saved.run));
+    std::filesystem::remove(found.path());
     expect_equal(first.laboratory(), second.laboratory());
     while (!second.finished()) second.step();
     expect_equal(whole.laboratory(), second.laboratory());

@@ -26,6 +26,16 @@ DryingScene small_scene(const std::string& kind) {
   return drying_scene(Scene::parse(text, "small.toml", drying_parameters()));
 }
 
+const CheckpointOwner owner{"dryer", "1", "scene"};
+
+void write(const std::string& output, DryingRun& run, DryingProgress progress) {
+  const OutputCheckpoint checkpoint(output, owner);
+  checkpoint.write(checkpoint.collect([&](SavedFields& f) {
+    FrameLog::Mark().fields(f.in("frames"));
+    save_drying(f, progress, run);
+  }));
+}
+
 class Restart : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(Restart, continues_to_the_same_bits_from_any_step) {
@@ -42,15 +52,14 @@ TEST_P(Restart, continues_to_the_same_bits_from_any_step) {
     DryingRun first(scene, 1);
     for (int k = 0; k < stop; ++k) first.step();
     const std::string output = folder.file("out.h5");
-    std::ofstream(output + ".tmp") << "the unfinished output";
-    const CheckpointOwner owner{"dryer", "1", "scene"};
-    DryingCheckpoint(output, owner).save(first, {4, 5, DryingOutcome{1, 2, 3}});
-    const DryingCheckpoint found(output, owner);
+    write(output, first, {true, DryingOutcome{1, 2, 3}, 4});
+    const OutputCheckpoint found(output, owner);
     ASSERT_TRUE(found.found());
-    EXPECT_EQ(found.progress().companion->contacts, 3);
-    EXPECT_EQ(found.progress().frames, 4);
     EXPECT_GT(found.used().cpu_s, 0);
-    DryingRun second = found.resume(scene);
+    const SavedDrying saved = saved_drying(found, scene);
+    EXPECT_EQ(saved.progress.companion->contacts, 3);
+    EXPECT_EQ(saved.progress.frames, 4);
+    DryingRun& second = *saved.run;
     while (!second.finished()) second.step();
     const Frame &f = whole.state().state, &g = second.state().state;
     EXPECT_EQ(f.position, g.position) << stop;
@@ -76,16 +85,14 @@ TEST(Checkpoint, that_lacks_a_field_or_has_one_too_many_is_refused_by_its_name) 
   const Folder folder;
   const DryingScene scene = small_scene("stabilised");
   const std::string output = folder.file("out.h5"), file = output + ".checkpoint";
-  std::ofstream(output + ".tmp") << "the unfinished output";
-  const CheckpointOwner owner{"dryer", "1", "scene"};
   DryingRun run(scene, 1);
   run.step();
-  DryingCheckpoint(output, owner).save(run, {1, 0, {}});
+  write(output, run, {true, {}, 1});
   const SavedState whole = load_checkpoint(file, owner);
   const auto message = [&](const SavedState& state) {
     save_checkpoint(file, owner, state);
     try {
-      DryingCheckpoint(output, owner).resume(scene);
+      saved_drying(OutputCheckpoint(output, owner), scene);
     } catch (const InputError& error) {
       return std::string(error.what());
     }

@@ -1,14 +1,15 @@
 // A checkpoint comes back to the bit, and only to the program, version and scene that it belongs to.
 #include <gtest/gtest.h>
 
-#include <array>
 #include <bit>
 #include <fstream>
+#include <iterator>
 #include <limits>
 
+#include "common/io/agglomerate_reader.hpp"
 #include "common/io/checkpoint.hpp"
 #include "common/io/file_errors.hpp"
-#include "common/io/hdf5.hpp"
+#include "common/io/frame_log.hpp"
 #include "tests/io/sample_agglomerate.hpp"
 
 namespace crumble::test {
@@ -61,15 +62,149 @@ TEST(Checkpoint, ThatIsNoneIsAnError) {
   const Folder folder;
   EXPECT_THROW(load_checkpoint(folder / "none", owner), OpenError);
   std::ofstream(folder / "text") << "not a checkpoint";
-  EXPECT_THROW(load_checkpoint(folder / "text", owner), OpenError);
+  EXPECT_THROW(load_checkpoint(folder / "text", owner), ContentError);
   write_sample(folder / "a.h5", 1);
   EXPECT_THROW(load_checkpoint(folder / "a.h5", owner), ContentError);
-  save_checkpoint(folder / "b", owner, {});
-  auto file = hdf5::File::modify(folder / "b");
-  const std::array<double, 1> one{1};
-  file.group("/restart").set_attribute<double>("program", one);
-  file.close();
-  EXPECT_THROW(load_checkpoint(folder / "b", owner), ContentError);
+}
+
+std::string content(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+void write(const std::filesystem::path& path, const std::string& content) {
+  std::ofstream(path, std::ios::binary | std::ios::trunc) << content;
+}
+
+TEST(Checkpoint, OfWhichAnyByteIsChangedOrLostIsRefused) {
+  const Folder folder;
+  const auto path = folder / "a.h5.checkpoint";
+  SavedState saved;
+  saved.reals["some"] = {1, 2, 3};
+  saved.integers["count"] = {4};
+  save_checkpoint(path, owner, saved);
+  const std::string whole = content(path);
+  for (std::size_t k = 0; k < whole.size(); ++k) {
+    std::string changed = whole;
+    changed[k] = static_cast<char>(changed[k] ^ (1 << k % 8));
+    write(path, changed);
+    EXPECT_THROW(load_checkpoint(path, owner), ContentError) << k;
+    write(path, whole.substr(0, k));
+    EXPECT_THROW(load_checkpoint(path, owner), ContentError) << k;
+  }
+  write(path, whole + "x");
+  EXPECT_THROW(load_checkpoint(path, owner), ContentError);
+}
+
+TEST(Checkpoint, KnowsWhatAKilledRunHasLeft) {
+  const Folder folder;
+  const std::string output = (folder / "a.h5").string();
+  for (const char* ending : {".tmp", ".frames", ".checkpoint.tmp"}) write(output + ending, "half");
+  const std::string words = OutputCheckpoint(output, owner).leftovers();
+  for (const char* ending : {".tmp", ".frames", ".checkpoint.tmp"}) {
+    EXPECT_NE(words.find(output + ending), std::string::npos) << words;
+    EXPECT_FALSE(std::filesystem::exists(output + ending));
+  }
+  EXPECT_NE(words.find("begins anew"), std::string::npos) << words;
+  EXPECT_EQ(OutputCheckpoint(output, owner).leftovers(), "");
+}
+
+TEST(Checkpoint, IsThatOfTheSceneWhateverItsInterval) {
+  const Folder folder;
+  const std::string output = (folder / "a.h5").string();
+  const auto with = [&](const std::string& interval) {
+    return CheckpointOwner{"dryer", "0.1.0", "[output]\nframes = 5\ncheckpoint_interval = " + interval + "\n[run]\n"};
+  };
+  OutputCheckpoint(output, with("60")).write({});
+  EXPECT_TRUE(OutputCheckpoint(output, with("10")).found());
+  EXPECT_THROW(OutputCheckpoint(output, owner), InputError);
+}
+
+constexpr std::size_t size = sample_size;
+
+void append(FrameLog& log, int first, int end) {
+  for (int t = first; t < end; ++t) {
+    log.append(sample_frame(size, 10 + 7 * t), sample_observables(t));
+    for (int k = 0; k < 5; ++k) log.sample(10 * t + k, 1e-9 * (10 * t + k), {{"front_speed", "m s-1", 0.5 * k}});
+  }
+}
+
+void write_file(const FrameLog& log, const std::filesystem::path& path) {
+  AgglomerateWriter writer(path, sample_particles(size), sample_description());
+  log.write_to(writer);
+  writer.finish("drying");
+}
+
+TEST(FrameLog, GoesOnFromItsMarkAsIfNeverStopped) {
+  const Folder folder;
+  FrameLog whole(folder / "whole.h5");
+  append(whole, 0, 4);
+  write_file(whole, folder / "whole.h5");
+  FrameLog::Mark mark;
+  {
+    FrameLog first(folder / "a.h5");
+    append(first, 0, 2);
+    mark = first.mark();
+    append(first, 2, 3);  // lost, and made again
+    first.keep();
+  }
+  FrameLog second(folder / "a.h5", mark);
+  append(second, 2, 4);
+  EXPECT_EQ(second.mark().sha256, whole.mark().sha256);
+  write_file(second, folder / "a.h5");
+  const AgglomerateReader expected(folder / "whole.h5"), found(folder / "a.h5");
+  ASSERT_EQ(found.frame_count(), 4u);
+  for (std::size_t t = 0; t < 4; ++t) {
+    const Frame f = found.frame(t), g = expected.frame(t);
+    EXPECT_EQ(f.step, g.step);
+    EXPECT_EQ(f.time, g.time);
+    EXPECT_EQ(f.position, g.position);
+    EXPECT_EQ(f.torque, g.torque);
+    ASSERT_EQ(f.contacts.size(), g.contacts.size());
+    for (std::size_t c = 0; c < f.contacts.size(); ++c) EXPECT_EQ(f.contacts[c].rolling, g.contacts[c].rolling);
+  }
+  for (const auto& name : expected.observable_names())
+    EXPECT_EQ(found.observable(name), expected.observable(name)) << name;
+}
+
+TEST(FrameLog, OfWhichAnyByteBeforeTheMarkIsChangedIsRefused) {
+  const Folder folder;
+  const auto path = folder / "a.h5.frames";
+  FrameLog::Mark mark;
+  {
+    FrameLog log(folder / "a.h5");
+    log.sample(1, 2, {{"front_speed", "m s-1", 3}});
+    mark = log.mark();
+    log.sample(4, 5, {{"front_speed", "m s-1", 6}});
+    log.keep();
+  }
+  const std::string whole = content(path);
+  for (std::size_t k = 0; k < whole.size(); ++k) {
+    std::string changed = whole;
+    changed[k] = static_cast<char>(changed[k] ^ (1 << k % 8));
+    write(path, changed);
+    if (k < static_cast<std::size_t>(mark.bytes))
+      EXPECT_THROW(FrameLog(folder / "a.h5", mark), ContentError) << k;
+    else
+      EXPECT_NO_THROW(FrameLog(folder / "a.h5", mark)) << k;
+  }
+  write(path, whole.substr(0, static_cast<std::size_t>(mark.bytes) - 1));
+  EXPECT_THROW(FrameLog(folder / "a.h5", mark), ContentError);
+  std::filesystem::remove(path);
+  EXPECT_THROW(FrameLog(folder / "a.h5", mark), ContentError);
+}
+
+TEST(FrameLog, RefusesANumberThatIsNotFiniteWhereItIsMade) {
+  const Folder folder;
+  FrameLog log(folder / "a.h5");
+  EXPECT_THROW(log.sample(1, 2, {{"front_speed", "m s-1", NAN}}), ContentError);
+  EXPECT_EQ(log.mark().records, 0);
+}
+
+TEST(FrameLog, OfARunWithoutACheckpointGoesWithIt) {
+  const Folder folder;
+  { FrameLog log(folder / "a.h5"); }
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.h5.frames"));
 }
 
 }  // namespace

@@ -105,36 +105,6 @@ TEST(AgglomerateFile, UnfinishedWriterLeavesTheOldFileAndNoOther) {
   EXPECT_EQ(std::filesystem::file_size(folder / "a.h5"), 18u);
 }
 
-TEST(AgglomerateFile, SuspendedFileIsIncompleteAndContinuesAsIfNeverStopped) {
-  const Folder folder;
-  write_sample(folder / "whole.h5", 4);
-  {
-    AgglomerateWriter writer(folder / "a.h5", sample_particles(sample_size), sample_description());
-    for (int t = 0; t < 3; ++t) {
-      writer.append(sample_frame(sample_size, 10 + 7 * t), sample_observables(t));
-      for (int k = 0; k < 5; ++k) writer.sample("front_speed", "m s-1", 10 * t + k, 1e-9 * (10 * t + k), 0.5 * k);
-    }
-    writer.suspend();
-  }
-  try {
-    read_info(folder / "a.h5.tmp");
-    FAIL() << "an unfinished file was read";
-  } catch (const ContentError& error) {
-    EXPECT_NE(std::string(error.what()).find("incomplete"), std::string::npos) << error.what();
-  }
-  auto writer = AgglomerateWriter::resume(folder / "a.h5", 17);  // the third frame, step 24, is made again
-  EXPECT_EQ(writer.frame_count(), 2u);
-  for (int t = 2; t < 4; ++t) {
-    writer.append(sample_frame(sample_size, 10 + 7 * t), sample_observables(t));
-    for (int k = 0; k < 5; ++k) writer.sample("front_speed", "m s-1", 10 * t + k, 1e-9 * (10 * t + k), 0.5 * k);
-  }
-  writer.finish("drying");
-  const AgglomerateReader whole(folder / "whole.h5"), resumed(folder / "a.h5");
-  ASSERT_EQ(resumed.frame_count(), 4u);
-  for (std::size_t t = 0; t < 4; ++t) expect_same(resumed.frame(t), sample_frame(sample_size, 10 + 7 * t));
-  for (const auto& name : whole.observable_names()) EXPECT_EQ(resumed.observable(name), whole.observable(name)) << name;
-}
-
 TEST(AgglomerateFile, WriterRefusesWhatWouldMakeAnInvalidFile) {
   const Folder folder;
   const auto attempt = [&](auto change, const char* what) {

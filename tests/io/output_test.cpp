@@ -78,7 +78,7 @@ TEST(OutputFile, two_names_of_one_file_are_refused_whatever_their_spelling) {
     EXPECT_NE(refusal_of({out(same)}, {scene}).find("would overwrite the input"), std::string::npos) << same;
   EXPECT_NE(refusal_of({out("o.h5")}, {{"the input", here + "/again/o.h5.tmp"}}).find("with its '.tmp'"),
             std::string::npos);
-  for (const char* ending : {".lock", ".checkpoint", ".checkpoint.tmp"})
+  for (const char* ending : {".lock", ".frames", ".checkpoint", ".checkpoint.tmp"})
     EXPECT_NE(refusal_of({out("new.h5")}, {{"the input", here + "/./new.h5" + ending}}), "") << ending;
   for (const char* same : {"a.h5", "./a.h5", "again/a.h5", "a.h5.tmp", "a.h5.checkpoint"})
     EXPECT_NE(refusal_of({out("a.h5"), report(same)}, {}).find("are the same file"), std::string::npos) << same;

@@ -86,7 +86,7 @@ TEST(Interrupt, a_second_signal_ends_the_program_at_once) {
         std::raise(SIGINT);
         std::raise(SIGINT);
       },
-      ::testing::KilledBySignal(SIGINT), "");
+      ::testing::ExitedWithCode(130), "");
 }
 
 TEST(Progress, time_left_follows_the_recent_speed) {

@@ -49,7 +49,9 @@ Row measured(const Network& net, const HydrodynamicChoice& choice) {
   for (const Vector3& x : net.position()) centre += x / static_cast<double>(net.size());
   const double before = processor_seconds();
   const auto begin = std::chrono::steady_clock::now();
-  Judged found = judged_response(net, centre, choice, [](const std::string&) {});
+  DoneParts parts;
+  Judged found = judged_response(
+      net, centre, choice, [](const std::string&) {}, parts);
   const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return {std::move(found), wall, processor_seconds() - before, choice.method == Method::multipole ? choice.order : 1};
 }

@@ -15,7 +15,8 @@ double largest(const Response& r) {
 }
 
 Judged judged(const Network& net, const HydrodynamicChoice& choice) {
-  return judged_response(net, testing::centre(net.position()), choice, silent);
+  DoneParts parts;
+  return judged_response(net, testing::centre(net.position()), choice, silent, parts);
 }
 
 HydrodynamicChoice with(Method method, int order = 3) {
@@ -88,8 +89,10 @@ TEST(HydrodynamicChoice, IteratesWhereADenseFactorDoesNotFit) {
 TEST(HydrodynamicChoice, WarnsOfLubricationOnCollectiveMotion) {
   std::string heard;
   const Network net = testing::network(testing::raft(2));
-  judged_response(net, testing::centre(net.position()), with(Method::fts_lubrication),
-                  [&](const std::string& message) { heard += message; });
+  DoneParts parts;
+  judged_response(
+      net, testing::centre(net.position()), with(Method::fts_lubrication),
+      [&](const std::string& message) { heard += message; }, parts);
   EXPECT_NE(heard.find("warning"), std::string::npos);
 }
 
