@@ -7,6 +7,7 @@
 #include "common/agglomerate/fragments.hpp"
 #include "common/agglomerate/morphology.hpp"
 #include "common/contact/small_contact.hpp"
+#include "common/hydro/lubrication.hpp"
 #include "common/io/errors.hpp"
 #include "common/rigid/strength.hpp"
 
@@ -51,6 +52,11 @@ Start make_start(Agglomerate agglomerate, const std::string& name, const Breaker
     start.made = r.made;
     start.self_stress = r.self_stress;
     if (start.lost > 0) require_one_piece(agglomerate, name + ", closed,", scene.only_largest);
+  }
+  if (scene.model.hydro.rung != Rung::fts) {
+    const Spheres spheres{agglomerate.state.position, agglomerate.particles.radius};
+    if (const auto wrong = outside_lubrication(spheres, scene.model.hydro.lubrication_range); !wrong.empty())
+      throw InputError(name + ": " + wrong + ". hydrodynamics.method = \"fts\" leaves it out");
   }
   Frame& frame = agglomerate.state;
   const Particles& particles = agglomerate.particles;

@@ -9,6 +9,7 @@
 #include "common/hydro/dense_hydrodynamics.hpp"
 #include "common/hydro/matrix_free.hpp"
 #include "common/hydro/multipole.hpp"
+#include "common/io/errors.hpp"
 
 namespace crumble::rigidstress {
 
@@ -85,6 +86,13 @@ RigidBodyResponse with_relative_lubrication(const Network& network, RigidBodyRes
   return body;
 }
 
+std::string outside_lubrication(const Network& network, const HydroModel& model) {
+  return outside_lubrication(spheres_of(network), model.lubrication_range);
+}
+bool is_in_lubrication(const Network& network, const HydroModel& model) {
+  return outside_lubrication(network, model).empty();
+}
+
 // Tension of each contact in its own worst orientation of a planar flow of unit rate.
 Eigen::VectorXd worst_tensions(const Eigen::MatrixXd& tension) {
   const Eigen::Matrix3d flow = planar_elongation(1).gradient;
@@ -117,6 +125,8 @@ void require_memory(int spheres, int order, double allowed) {
 }
 
 constexpr const char* by_lubrication = "twice what pair lubrication on relative motion changes, 3 % at least";
+constexpr const char* no_lubrication =
+    "not estimated: radii of near spheres differ by more than the 10 to 1 that lubrication is known for";
 // In clusters of 2 to 115 spheres the far field's error is up to 1.7 times what lubrication changes, of either sign.
 // What it misses of collective drag lubrication does not see: 2 % of the largest tension in a straight chain of 50.
 double far_field_error(double change) { return std::max(0.03, 2 * change); }
@@ -133,8 +143,10 @@ class Ladder {
     const RigidBodyResponse far =
         kept(parts_, order_name(1), [&] { return far_field_response(network_, centre_, choice_, say_); });
     response_ = respond(network_, far);
-    const Response with = respond(network_, with_relative_lubrication(network_, far, {}));
-    changes_.push_back(tension_change(response_.tension, with.tension));
+    if (is_in_lubrication(network_, {})) {
+      const Response with = respond(network_, with_relative_lubrication(network_, far, {}));
+      changes_.push_back(tension_change(response_.tension, with.tension));
+    }
     order_ = first_ = 1;
   }
   void climb(int order) {
@@ -150,11 +162,16 @@ class Ladder {
   }
   Response& response() { return response_; }
   const std::vector<double>& changes() const { return changes_; }
-  double error() const { return order_ == 1 ? far_field_error(changes_.front()) : order_error(changes_); }
+  std::optional<double> error() const {
+    if (changes_.empty()) return std::nullopt;
+    return order_ == 1 ? far_field_error(changes_.front()) : order_error(changes_);
+  }
   std::string how() const {
+    if (changes_.empty()) return no_lubrication;
     if (order_ == 1) return by_lubrication;
+    const bool lubricated = static_cast<int>(changes_.size()) == order_ && order_ < 4;
     return fmt::format("from the changes of the largest tensions between multipole orders {} to {}{}",
-                       std::max(first_, order_ - 3), order_, first_ == 1 && order_ < 4 ? " and by lubrication" : "");
+                       std::max(first_, order_ - 3), order_, lubricated ? " and by lubrication" : "");
   }
 
  private:
@@ -173,6 +190,10 @@ constexpr const char* by_far_field = "twice the difference to the far field with
 Judged two_rungs(const Network& network, const Vector3& centre, const HydrodynamicChoice& choice, const Say& say,
                  DoneParts& parts) {
   if (choice.method == Method::fts_lubrication) require_memory(network.size(), 1, choice.memory);
+  const bool in_lubrication = is_in_lubrication(network, choice.lubrication);
+  if (choice.method != Method::fts && !in_lubrication)
+    throw InputError(outside_lubrication(network, choice.lubrication) +
+                     ". hydrodynamics.method = \"multipole\" or \"auto\" needs none");
   const RigidBodyResponse far =
       kept(parts, order_name(1), [&] { return far_field_response(network, centre, choice, say); });
   const Response without = respond(network, far);
@@ -186,6 +207,7 @@ Judged two_rungs(const Network& network, const Vector3& centre, const Hydrodynam
     result.how = "not estimated: pair lubrication on collective motion is not a step towards the exact solution";
     return result;
   }
+  if (!in_lubrication) return {without, "fts", std::nullopt, no_lubrication};
   const Response with = respond(network, with_relative_lubrication(network, far, choice.lubrication));
   result.response = choice.method == Method::fts ? without : with;
   result.method = choice.method == Method::fts ? "fts" : "fts-relative-lubrication";
@@ -234,8 +256,9 @@ Judged cheapest(const Network& network, const Vector3& centre, const Hydrodynami
     result.error = ladder.error();
     result.how = ladder.how();
     result.method = order_name(order);
-    result.within_tolerance = *result.error <= choice.accuracy;
-    say(fmt::format("{}: largest tension within {:.2g} % (estimate)", result.method, 100 * *result.error));
+    result.within_tolerance = result.error && *result.error <= choice.accuracy;
+    if (result.error)
+      say(fmt::format("{}: largest tension within {:.2g} % (estimate)", result.method, 100 * *result.error));
     if (result.within_tolerance) break;
   }
   result.response = std::move(ladder.response());

@@ -40,6 +40,8 @@ double memory_needed(int spheres, int order);
 
 using Say = std::function<void(const std::string&)>;
 
+// Throws InputError where a method with lubrication meets near spheres whose radii differ by more than is known of it;
+// multipoles need none, and their error is then estimated without it.
 // centre: centre of mass, m. `say` hears of every rung and of warnings; `parts` keeps the rungs.
 Judged judged_response(const Network& network, const Vector3& centre, const HydrodynamicChoice& choice, const Say& say,
                        DoneParts& parts);

@@ -1,5 +1,7 @@
 #include "common/hydro/lubrication.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,6 +9,7 @@
 #include <numeric>
 
 #include "common/hydro/far_field.hpp"
+#include "common/hydro/two_sphere.hpp"
 
 namespace crumble {
 
@@ -139,6 +142,18 @@ PairMatrix placed(AxialBlocks D, const Vector3& r, double distance, double apart
 }
 
 }  // namespace
+
+std::string outside_lubrication(const Spheres& s, double range) {
+  for (const auto& [i, j] : near_pairs(s, range)) {
+    const double ratio = s.radius[i] > s.radius[j] ? s.radius[i] / s.radius[j] : s.radius[j] / s.radius[i];
+    if (!is_tabulated(ratio))
+      return fmt::format(
+          "particles {} and {} have radii of {:.4g} and {:.4g} nm, {:.3g} to 1; lubrication between near "
+          "spheres is known up to 10 to 1",
+          i, j, 1e9 * s.radius[i], 1e9 * s.radius[j], ratio);
+  }
+  return "";
+}
 
 PairMatrix pair_lubrication(const Vector3& r, double a_1, double a_2, PairMotion motion, double gap_floor) {
   const double distance = r.norm(), a = (a_1 + a_2) / 2, apart = effective_distance(distance, a, gap_floor);

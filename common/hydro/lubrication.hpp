@@ -15,6 +15,7 @@
 #pragma once
 
 #include <Eigen/Sparse>
+#include <string>
 #include <vector>
 
 #include "common/hydro/spheres.hpp"
@@ -34,6 +35,10 @@ struct LubricationPair {
 // cancel the singular terms.
 PairMatrix pair_lubrication(const Vector3& r, double a_1, double a_2, PairMotion motion,
                             double gap_floor = default_gap_floor);
+
+// Empty if every pair closer than `range` mean radii is in the table of two-sphere functions, else what is wrong with
+// the first that is not: "particles 0 and 7 have radii of 100 and 5 nm, 20 to 1; ...".
+std::string outside_lubrication(const Spheres& spheres, double range);
 
 // The sum over all pairs closer than `range` mean radii (of the pair).
 class Lubrication {

@@ -106,6 +106,11 @@ ResistanceScalars unequal_resistance(double gap, double ratio) {
 
 }  // namespace
 
+bool is_tabulated(double radius_ratio) {
+  constexpr double slack = 1 + 1e-9;  // for a quotient of radii that is 10 but for rounding
+  return radius_ratio * slack >= smallest_ratio && radius_ratio <= largest_ratio * slack;
+}
+
 ResistanceScalars two_sphere_resistance(double gap, double radius_ratio) {
   if (!(gap > 0))
     throw std::invalid_argument("two_sphere_resistance: gap must be positive, got " + std::to_string(gap));
@@ -115,8 +120,7 @@ ResistanceScalars two_sphere_resistance(double gap, double radius_ratio) {
     if (segments[at.segment].singular) add_singular(f, equal_singular, gap, at.log_gap);
     return scalars(f);
   }
-  constexpr double slack = 1 + 1e-9;  // for a quotient of radii that is 10 but for rounding
-  if (!(radius_ratio * slack >= smallest_ratio && radius_ratio <= largest_ratio * slack))
+  if (!is_tabulated(radius_ratio))
     throw std::invalid_argument("two_sphere_resistance: radius ratios from 0.1 to 10 are tabulated, got " +
                                 std::to_string(radius_ratio));
   return unequal_resistance(gap, radius_ratio);

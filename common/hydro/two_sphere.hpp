@@ -12,6 +12,7 @@ namespace crumble {
 // measured in common/hydro/TWO_SPHERES.md. Throws std::invalid_argument for a gap <= 0 (or not a number) and for a
 // ratio that is not tabulated.
 ResistanceScalars two_sphere_resistance(double gap, double radius_ratio = 1);
+bool is_tabulated(double radius_ratio);  // from 0.1 to 10
 
 // The same scalars seen from the other sphere: with f computed for a1/a2, swapped(f) holds f22 and f21 for the axis
 // that still points from 1 to 2. Forces and torques of odd parity (YB, XG, YG) change sign.

@@ -78,6 +78,18 @@ class Program(unittest.TestCase):
             self.assertTrue((numpy.diff(stress) > 0).all())
             self.assertTrue((numpy.diff(file["observables/flow_stress/value"][:]) >= 0).all())
 
+    def test_radii_beyond_the_table_of_lubrication_are_named_and_the_far_field_takes_them(self):
+        table = self.folder / "unequal.csv"
+        table.write_text("x,y,z,radius\n0,0,0,10\n120,0,0,110\n")
+        out = self.folder / "unequal.h5"
+        subprocess.run([AGGLOMERATE, "import", str(table), "-o", str(out)], check=True, capture_output=True)
+        said = self.refused(out)
+        self.assertIn("particles 0 and 1 have radii of", said)
+        self.assertIn("11 to 1", said)
+        self.assertIn('hydrodynamics.method = "fts"', said)
+        run = self.run_it(*self.command(out, 'hydrodynamics.method="fts"', output="far.h5"), "--check")
+        self.assertEqual(run.returncode, 0, run.stderr)
+
     def test_a_run_that_cannot_go_on_says_where_and_keeps_its_state(self):
         run = self.run_it(*self.command(self.agglomerate(DOUBLET), "material.youngs_modulus=1e120", "error.estimate=false"))
         self.assertEqual(run.returncode, 1, run.stderr)

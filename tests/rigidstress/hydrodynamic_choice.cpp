@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "common/io/errors.hpp"
+
 #include "samples.hpp"
 
 namespace crumble::rigidstress {
@@ -94,6 +96,29 @@ TEST(HydrodynamicChoice, WarnsOfLubricationOnCollectiveMotion) {
       net, testing::centre(net.position()), with(Method::fts_lubrication),
       [&](const std::string& message) { heard += message; }, parts);
   EXPECT_NE(heard.find("warning"), std::string::npos);
+}
+
+// Spheres of 1 and 20 in touch: multipoles need no table of lubrication.
+TEST(HydrodynamicChoice, RadiiBeyondTheTableOfLubricationAreForMultipolesAndRefusedByTheRest) {
+  const double a = testing::radius;
+  const Network net({Vector3::Zero(), Vector3(21 * a, 0, 0)}, {a, 20 * a},
+                    {make_joint({}, Material{}, 0, 1, a, 20 * a)});
+  const Judged multipole = judged(net, with(Method::multipole, 3));
+  ASSERT_TRUE(multipole.error);
+  EXPECT_EQ(multipole.how.find("lubrication"), std::string::npos) << multipole.how;
+  const Judged far = judged(net, with(Method::fts));
+  EXPECT_FALSE(far.error);
+  EXPECT_NE(far.how.find("radii of near spheres"), std::string::npos) << far.how;
+  for (const Method method : {Method::fts_lubrication, Method::fts_relative_lubrication}) {
+    try {
+      judged(net, with(method));
+      FAIL() << "not refused";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("particles 0 and 1 have radii of 100 and 2000 nm, 20 to 1"),
+                std::string::npos)
+          << error.what();
+    }
+  }
 }
 
 TEST(HydrodynamicChoice, FewerOrdersWithoutAnEstimate) {
