@@ -80,10 +80,16 @@ void Breaking::advance() {
   if (!limit_before && run_->breakup().first_limit && !job_.scene.is_explicit)
     job_.progress.say(fmt::format("rigid but for elastic contacts up to {:.1f} Pa ({} steps); from here it is flexible",
                                   *run_->breakup().first_limit, run_->statistics().rigid_steps));
-  job_.progress.update(run_->fraction(), run_->statistics().steps, [&] {
-    return fmt::format("step {}, {:.0f} Pa, {} contacts, largest tension {:.2f} F_po", run_->statistics().steps,
-                       run_->stress(), run_->look().contacts, run_->look().network.max_use);
-  });
+  const ExpectedCost& cost = job_.cost;
+  const std::optional<StepRange> steps =
+      cost.most_steps > 0 ? std::optional(StepRange{cost.least_steps, cost.most_steps}) : std::nullopt;
+  job_.progress.update(
+      run_->fraction(), run_->statistics().steps,
+      [&] {
+        return fmt::format("step {}, {:.3g} Pa, {} contacts, largest tension {:.2f} F_po", run_->statistics().steps,
+                           run_->stress(), run_->look().contacts, run_->look().network.max_use);
+      },
+      steps);
 }
 
 void Breaking::run_to_the_end() {
@@ -118,7 +124,7 @@ void Breaking::write() {
   AgglomerateWriter writer(job_.line.output, job_.start.agglomerate.particles,
                            {"breaker", job_.provenance, job_.text.given(), job_.text.resolved(), "none"});
   frames_->write_to(writer);
-  write_rest(writer, *run_, job_.scene, job_.start);
+  write_rest(writer, *run_, job_.scene, job_.start, companion());
   write_properties(writer, properties_of(job_.text, job_.parent.properties));
   writer.finish(run_->breakup().severed ? "broken" : "relaxed");
 }

@@ -5,6 +5,7 @@
 
 #include "breaker/breakup_checkpoint.hpp"
 #include "breaker/companion.hpp"
+#include "breaker/expected_cost.hpp"
 #include "breaker/start.hpp"
 #include "common/io/command_line.hpp"
 #include "common/io/granule.hpp"
@@ -23,6 +24,7 @@ class Breaking {
     const Parent& parent;
     const Start& start;
     const Provenance& provenance;
+    const ExpectedCost& cost;
     ProgressPrinter& progress;
     bool beside;  // the companion has a thread of its own
   };

@@ -4,9 +4,11 @@
 #include <filesystem>
 
 #include "breaker/breaking.hpp"
+#include "breaker/expected_cost.hpp"
 #include "breaker/result.hpp"
 #include "common/agglomerate/morphology.hpp"
 #include "common/io/command_line.hpp"
+#include "common/io/earlier_result.hpp"
 #include "common/io/granule.hpp"
 #include "common/io/machine.hpp"
 #include "common/io/output_lock.hpp"
@@ -25,9 +27,11 @@ ProgramDescription description() {
           {{"breaker breakup.toml hollow.h5 -o breakup.h5 --report breakup.json", "one breakup"},
            {"breaker breakup.toml hollow.h5 -o quick.h5 --set error.estimate=false --set integrator.tolerance=0.02",
             "half the time, and no error"},
+           {"breaker breakup.toml hollow.h5 -o breakup.h5 --at \"10 W/kg\"", "does it hold in this turbulence?"},
            {"breaker breakup.toml breakup.h5 -o more.h5 --set particle.contacts=keep", "a fragment goes on"}},
           version_text("breaker"),
           breaker_parameters(),
+          true,
           true};
 }
 
@@ -43,6 +47,7 @@ int break_up(int argc, const char* const* argv) {
   const Parent parent{input, read_info(input).properties, mean_radius(agglomerate.particles)};
   inherit(text, parent);
   BreakerScene scene = breaker_scene(text);
+  const std::optional<ServiceLoad> at = service_load_at(line.at, scene.liquid);
   const int threads = line.threads > 0 ? line.threads : default_threads(omp_get_max_threads(), this_machine());
   omp_set_num_threads(1);  // beside each other the run and its companion use two cores
   const Provenance provenance = make_provenance("breaker", {argv, argv + argc}, 0, "none", input);
@@ -50,28 +55,37 @@ int break_up(int argc, const char* const* argv) {
   ProgressPrinter progress(stderr, line.check ? line.scene : std::filesystem::path(line.output).stem().string(),
                            line.quiet);
   progress.say(granule_line(text, parent));
+  if (const std::string warning = material_warning(text); !warning.empty()) progress.say(warning);
   report_inputs(report, text, parent);
   const Start start = make_start(std::move(agglomerate), input, scene);
   adapt(scene, start.rigid_strength);
   for (const std::string& fact : describe(scene, start)) progress.say(fact);
+  ExpectedCost cost;
+  if (!scene.is_explicit && !scene.model.gradient.isZero()) {
+    cost = expected_cost(scene, start);
+    if (cost.step_seconds > 0) progress.say(expected_cost_text(cost));
+  }
   if (line.check) {
     const BreakupRun builds(scene, start.agglomerate, 1);
     return 0;
   }
 
   const OwnedOutputs owned(line.written, {});
+  if (!line.overwrite) require_no_other_result(line.output, provenance, text.resolved());
   const OutputCheckpoint checkpoint(
       line.output, {"breaker", provenance.version, text.resolved() + "\n# of " + provenance.parent_sha256});
   if (line.restart) checkpoint.require();
   if (checkpoint.found()) progress.say("resuming from " + checkpoint.path());
   if (const std::string left = checkpoint.leftovers(); !left.empty()) progress.say(left);
   report.add_earlier(checkpoint.used());
-  Breaking breaking({line, text, scene, parent, start, provenance, progress, threads > 1}, checkpoint);
+  Breaking breaking({line, text, scene, parent, start, provenance, cost, progress, threads > 1}, checkpoint);
   breaking.finish();
   checkpoint.remove();
   breaking.forget();
   fill_report(report, scene, start, breaking.run(), breaking.companion());
-  deliver(result_text(breaking.run(), scene, breaking.companion()), [&] { report.write(line.report); });
+  std::string answer = result_text(breaking.run(), scene, breaking.companion());
+  if (at) answer += told(report, *at, granule_strength(breaking.run(), scene, text, start, breaking.companion()));
+  deliver(answer, [&] { report.write(line.report); });
   return 0;
 }
 

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cmath>
 #include <numbers>
 
@@ -10,6 +9,7 @@
 #include "breaker/body_hydrodynamics.hpp"
 #include "common/agglomerate/fragments.hpp"
 #include "common/agglomerate/morphology.hpp"
+#include "common/io/granule.hpp"
 #include "common/io/progress.hpp"
 
 namespace crumble::breaker {
@@ -39,7 +39,28 @@ void append_sample(FrameLog& frames, const BreakupRun& run) {
                  {"rolling", "", static_cast<double>(l.network.rolling)}});
 }
 
-void write_rest(AgglomerateWriter& writer, const BreakupRun& run, const BreakerScene& scene, const Start& start) {
+std::optional<double> relative_error(const Breakup& b, std::optional<double> companion) {
+  if (!b.severed || !companion || std::isinf(*companion)) return std::nullopt;
+  return std::abs(*companion / *b.severed - 1);
+}
+
+namespace {
+
+std::string how_estimated(const BreakerScene& scene, const Breakup& b, std::optional<double> companion) {
+  if (!b.severed) return "nothing broke";
+  if (!companion) return "not estimated: error.estimate = false";
+  if (std::isinf(*companion)) return "not estimated: the companion run did not break";
+  return scene.is_explicit ? "difference to the same run with half the step"
+                           : "difference to the same run with doubled tolerance";
+}
+
+}  // namespace
+
+void write_rest(AgglomerateWriter& writer, const BreakupRun& run, const BreakerScene& scene, const Start& start,
+                std::optional<double> companion) {
+  if (run.breakup().severed) writer.put("/breakup/critical_stress", *run.breakup().severed);
+  if (const auto error = relative_error(run.breakup(), companion))
+    writer.put("/errors/critical_stress", *error, how_estimated(scene, run.breakup(), companion));
   writer.put("/closing/residual_rms", start.self_stress.rms);
   writer.put("/closing/residual_max", start.self_stress.max);
   writer.put("/closing/lost_contacts", static_cast<double>(start.lost));
@@ -78,20 +99,7 @@ std::string breakage(const Breakup& b, const BreakerScene& scene) {
   return stretch < scene.brittle_below ? "brittle" : "ductile";
 }
 
-std::optional<double> relative_error(const Breakup& b, std::optional<double> companion) {
-  if (!b.severed || !companion || std::isinf(*companion)) return std::nullopt;
-  return std::abs(*companion / *b.severed - 1);
-}
-
 namespace {
-
-std::string how_estimated(const BreakerScene& scene, const Breakup& b, std::optional<double> companion) {
-  if (!b.severed) return "nothing broke";
-  if (!companion) return "not estimated: error.estimate = false";
-  if (std::isinf(*companion)) return "not estimated: the companion run did not break";
-  return scene.is_explicit ? "difference to the same run with half the step"
-                           : "difference to the same run with doubled tolerance";
-}
 
 void fill_left_out(Report& report, const BreakerScene& scene, const BreakupRun& run) {
   report.left_out.push_back("Brownian motion: out of scope; a bond of 100 nm spheres is worth far more than kT");
@@ -114,13 +122,17 @@ void fill_report(Report& report, const BreakerScene& scene, const Start& start, 
   const auto maybe = [](const std::optional<double>& value) {
     return value ? Report::Value(*value) : Report::Value(nullptr);
   };
+  const auto stress = [&](const std::string& name, const std::string& rate, const std::optional<double>& value) {
+    report.result(name + "_pa", maybe(value));
+    report.result(rate + "_per_s", maybe(value ? std::optional(scene.liquid.shear_rate(*value)) : value));
+  };
   report.steps = s.steps;
-  report.result("critical_stress_pa", maybe(b.severed));
-  report.result("fragment_lost_stress_pa", maybe(b.lost));
-  report.result("rigid_prediction_pa",
-                start.rigid_strength > 0 ? Report::Value(start.rigid_strength) : Report::Value(nullptr));
-  report.result("first_rupture_stress_pa", maybe(b.first_rupture));
-  report.result("first_limit_stress_pa", maybe(b.first_limit));
+  stress("critical_stress", "critical_shear_rate", b.severed);
+  stress("fragment_lost_stress", "fragment_lost_shear_rate", b.lost);
+  stress("rigid_prediction", "rigid_prediction_shear_rate",
+         start.rigid_strength > 0 ? std::optional(start.rigid_strength) : std::nullopt);
+  stress("first_rupture_stress", "first_rupture_shear_rate", b.first_rupture);
+  stress("first_limit_stress", "first_limit_shear_rate", b.first_limit);
   report.result("largest_stress_pa", run.stress());
   report.result("contacts_initial", b.contacts_initial);
   report.result("contacts_at_breakup", b.before.contacts);
@@ -146,17 +158,21 @@ void fill_report(Report& report, const BreakerScene& scene, const Start& start, 
 
 std::string result_text(const BreakupRun& run, const BreakerScene& scene, std::optional<double> companion) {
   const Breakup& b = run.breakup();
+  const auto rate = [&](double stress) { return fmt::format("{:.3g} 1/s", scene.liquid.shear_rate(stress)); };
   std::string text;
   if (b.severed) {
     const auto error = relative_error(b, companion);
-    text += fmt::format("critical stress        {:.1f}{} Pa, {}\n", *b.severed,
-                        error ? fmt::format(" +- {:.1f}", *error * *b.severed) : "", breakage(b, scene));
-    text += fmt::format("fragment beyond reach  {:.1f} Pa\n", *b.lost);
+    text += fmt::format("critical stress        {:.1f}{} Pa, {}{}\n", *b.severed,
+                        error ? fmt::format(" +- {:.1f}", *error * *b.severed) : "", rate(*b.severed) + ", ",
+                        breakage(b, scene));
+    text += fmt::format("fragment beyond reach  {:.1f} Pa, {}\n", *b.lost, rate(*b.lost));
   } else {
     text += run.ending() + "\n";
   }
-  if (b.first_limit) text += fmt::format("first contact yields   {:.1f} Pa\n", *b.first_limit);
-  if (b.first_rupture) text += fmt::format("first contact breaks   {:.1f} Pa\n", *b.first_rupture);
+  if (b.first_limit)
+    text += fmt::format("first contact yields   {:.1f} Pa, {}\n", *b.first_limit, rate(*b.first_limit));
+  if (b.first_rupture)
+    text += fmt::format("first contact breaks   {:.1f} Pa, {}\n", *b.first_rupture, rate(*b.first_rupture));
   text += fmt::format("contacts               {} at first, {} before breakup\n", b.contacts_initial, b.before.contacts);
   text += fmt::format("radius of gyration     {:+.1f} %\n",
                       100 * change(b.before.radius_of_gyration, b.initial.radius_of_gyration));
@@ -166,21 +182,25 @@ std::string result_text(const BreakupRun& run, const BreakerScene& scene, std::o
   text += "fragments             ";
   for (const std::int64_t size : b.fragments) text += fmt::format(" {}", size);
   text += "\n";
+  text += fmt::format("1/s: shear rate in this liquid of {:g} Pa s; {}, as in: {}\n", scene.liquid.viscosity,
+                      name_of(scene.flow), device_of(name_of(scene.flow)));
   if (relative_error(b, companion)) text += "+-: " + how_estimated(scene, b, companion) + "\n";
   return text;
 }
 
-namespace {
-
-// The breakups of breaker/NOTEBOOK.md (doublet, coil, compact, hollow; tolerance 0.01) took 19 to 60 steps a contact,
-// each about as long as the new far field of a moved configuration, s.
-std::string expected_cost(std::size_t contacts, double renewal) {
-  const double few = 19 * static_cast<double>(contacts), many = 60 * static_cast<double>(contacts);
-  return fmt::format("expected: {:.2g} to {:.2g} steps of {:.2g} s, {} to {} for one run", few, many, renewal,
-                     duration_text(few * renewal), duration_text(many * renewal));
+GranuleStrength granule_strength(const BreakupRun& run, const BreakerScene& scene, const Scene& text,
+                                 const Start& start, std::optional<double> companion) {
+  const Breakup& b = run.breakup();
+  const Particles& p = start.agglomerate.particles;
+  return {b.severed,
+          run.stress(),
+          name_of(scene.flow) + ", flexible",
+          relative_error(b, companion),
+          how_estimated(scene, b, companion),
+          scene.model.material.surface_energy,
+          source_of(text, "material.surface_energy"),
+          radial_extent(start.agglomerate.state.position, p.radius, p.mass).diameter()};
 }
-
-}  // namespace
 
 std::vector<std::string> describe(const BreakerScene& scene, const Start& start) {
   const Particles& particles = start.agglomerate.particles;
@@ -212,11 +232,8 @@ std::vector<std::string> describe(const BreakerScene& scene, const Start& start)
     time += stage.duration;
   }
   const double available = std::isfinite(time) ? scene.protocol.strain(time) / mu : 0;
-  const auto begin = std::chrono::steady_clock::now();
   BodyHydrodynamics hydrodynamics(particles.radius, mu, scene.model.hydro);
   hydrodynamics.renew_far_field(frame.position);
-  const double renewal = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  if (!scene.is_explicit) lines.push_back(expected_cost(frame.contacts.size(), renewal));
   const auto needed = alignment_strain(hydrodynamics.turning(), scene.model.gradient);
   lines.push_back(fmt::format("strain available up to there: {:.3g}; needed to turn into the flow: {}", available,
                               needed ? fmt::format("{:.3g}", *needed) : "not within 2000"));

@@ -13,8 +13,9 @@ namespace crumble::breaker {
 
 void append_frame(FrameLog& frames, const BreakupRun& run, const BreakerScene& scene);
 void append_sample(FrameLog& frames, const BreakupRun& run);
-// Closing, flow and events: once, at the end.
-void write_rest(AgglomerateWriter& writer, const BreakupRun& run, const BreakerScene& scene, const Start& start);
+// Closing, flow, events, critical stress and its error: once, at the end.
+void write_rest(AgglomerateWriter& writer, const BreakupRun& run, const BreakerScene& scene, const Start& start,
+                std::optional<double> companion);
 
 // Relative change of a length from the start to shortly before breakup.
 double change(double before, double initial);
@@ -26,6 +27,9 @@ std::string breakage(const Breakup& breakup, const BreakerScene& scene);
 std::optional<double> relative_error(const Breakup& breakup, std::optional<double> companion);
 void fill_report(Report& report, const BreakerScene& scene, const Start& start, const BreakupRun& run,
                  std::optional<double> companion);
+// text: the scene as given.
+GranuleStrength granule_strength(const BreakupRun& run, const BreakerScene& scene, const Scene& text,
+                                 const Start& start, std::optional<double> companion);
 std::string result_text(const BreakupRun& run, const BreakerScene& scene, std::optional<double> companion);
 
 // What follows from scene and agglomerate before anything is run, a line each.

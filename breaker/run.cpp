@@ -42,7 +42,13 @@ std::string BreakupRun::ending() const {
   return fmt::format("nothing broke up to protocol.largest_stress = {:g} Pa", scene_.largest_stress);
 }
 
-double BreakupRun::fraction() const { return broken_ ? 1 : std::clamp(course_.max_use(), 0.0, 0.99); }
+// Half of the steps are done where the rigid agglomerate would break, measured; how far beyond it holds is not known.
+double BreakupRun::fraction() const {
+  if (broken_ || finished_) return 1;
+  if (scene_.rigid_strength <= 0) return std::clamp(course_.max_use(), 0.0, 0.99);
+  const double x = stress() / scene_.rigid_strength;
+  return std::min(x / (1 + x), 0.99);
+}
 
 Frame BreakupRun::laboratory() const {
   Frame frame = pieces_.laboratory();

@@ -66,7 +66,7 @@ const ParameterTable& breaker_parameters() {
       particle(),
       material_section(),
       contact_section(),
-      fluid_section(),
+      loading_fluid_section(),
       hydrodynamics_section(
           {"fts", "fts-lubrication", "fts-relative-lubrication"}, "fts-relative-lubrication",
           "Far field; with pair lubrication as in Eq. 9; with pair lubrication on relative motion only"),
@@ -167,7 +167,8 @@ BreakerScene breaker_scene(const Scene& scene) {
   s.largest_gap = scene.real("particle.largest_gap");
   s.model.material = material_in(scene);
   s.model.contact = contact_in(scene);
-  s.model.viscosity = scene.real("fluid.viscosity");
+  s.liquid = liquid_in(scene);
+  s.model.viscosity = s.liquid.viscosity;
   s.model.hydro = lubrication_in(scene, rung_named(scene.choice("hydrodynamics.method")));
   s.flow = flow_named(scene.choice("flow.kind"));
   s.model.gradient = unit_gradient(s.flow);
@@ -212,6 +213,7 @@ void adapt(BreakerScene& s, double strength) {
   // Up to the stress S a ramp of rate r has strained by S^2/(2 r mu).
   if (s.protocol.stages().empty())
     s.protocol = Protocol({{0, strength * strength / (2 * s.ramp_strain * s.model.viscosity)}});
+  s.rigid_strength = strength;
   s.model.weak_stress = 1e-3 * strength;
   if (s.largest_stress == 0) s.largest_stress = 20 * strength;
   if (s.sample_interval == 0) s.sample_interval = strength / 200;

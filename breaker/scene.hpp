@@ -8,6 +8,7 @@
 #include "common/agglomerate/rescaled.hpp"
 #include "common/hydro/flow_kind.hpp"
 #include "common/io/parameters.hpp"
+#include "common/io/service_load.hpp"
 
 namespace crumble::breaker {
 
@@ -18,6 +19,7 @@ struct BreakerScene {
   bool keep_contacts = false, only_largest = false;
   double largest_gap = largest_listed_gap;  // in a
   BreakupModel model;
+  Liquid liquid;  // that of the model, with its density
   FlowKind flow = FlowKind::elongation;
   Protocol protocol;         // without stages: adapt() makes the ramp
   double ramp_strain = 500;  // of that ramp, up to the rigid strength
@@ -34,6 +36,7 @@ struct BreakerScene {
   bool estimate_error = true;
   double accuracy = 0.01;     // of the critical stress, relative; while its error is larger the tolerance is halved,
   std::int64_t halvings = 2;  // at most so often
+  double rigid_strength = 0;  // Pa, of the agglomerate; adapt() sets it
   double largest_stress = 0, sample_interval = 0, frame_interval = 0;  // Pa; 0: adapt() says
 };
 

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <map>
 #include <numbers>
 #include <tuple>
 
 #include "common/agglomerate/bond.hpp"
+#include "common/io/cost.hpp"
 #include "common/numerics/noise.hpp"
 #include "dryer/drag.hpp"
 #include "dryer/run.hpp"
@@ -20,12 +20,6 @@ namespace {
 constexpr std::size_t most_particles = 200;
 constexpr double budget = 8e-3;  // s, begun steps are ended
 constexpr int most_steps = 16;
-
-double thread_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 std::vector<double> sample_radii(const DryingScene& scene) {
   const std::size_t count = sample_size(scene), all = scene.radius.size();

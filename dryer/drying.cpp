@@ -85,6 +85,7 @@ void Drying::write(const Morphology& result) {
                            {"dryer", job_.provenance, job_.text.given(), job_.text.resolved(), "total"});
   frames_->write_to(writer);
   write_morphology(writer, result);
+  write_errors(writer, result, companion());
   Properties properties = properties_of(job_.text);
   properties["fluid.viscosity"] = job_.scene.model.viscosity;  // where the scene says "water", water's
   write_properties(writer, properties);

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "common/contact/bond_law.hpp"
+#include "common/io/progress.hpp"
 #include "dryer/cost_sample.hpp"
 #include "dryer/drag.hpp"
 #include "dryer/pair_statistics.hpp"
@@ -16,17 +17,6 @@
 namespace crumble::dryer {
 
 namespace {
-
-// Both ends in one unit, that of the upper.
-std::string range(double low, double high) {
-  const auto in = [&](double unit, const char* name) {
-    return fmt::format("{:.2g} to {:.2g} {}", low / unit, high / unit, name);
-  };
-  if (high < 90) return in(1, "s");
-  if (high < 5400) return in(60, "min");
-  if (high < 2 * 86400) return in(3600, "h");
-  return in(86400, "days");
-}
 
 std::string rounded(double steps) {
   return steps < 1e5 ? fmt::format("{:.0f}", std::round(steps / 10) * 10) : fmt::format("{:.1e}", steps);
@@ -186,11 +176,14 @@ std::string expected_cost_text(const DryingScene& s, const ExpectedCost& cost, c
                                                         : fmt::format("{:.2g} GB of memory of {:.3g} that are free",
                                                                       1e-9 * cost.memory, 1e-9 * machine.memory);
   return fmt::format("expected: about {} steps, {} on one core{}; {}", rounded(cost.steps),
-                     range(cost.least_seconds, cost.most_seconds),
+                     duration_range(cost.least_seconds, cost.most_seconds),
                      !s.estimate_error                  ? ""
                      : s.is(IntegratorKind::stabilised) ? ", and about three quarters as much for the error estimate"
                                                         : ", and about half as much for the error estimate",
-                     memory);
+                     memory) +
+         (cost.most_seconds > 86400
+              ? "; --fit-to \"1 h\" prints the scene of a smaller droplet that stands for this one"
+              : "");
 }
 
 }  // namespace crumble::dryer

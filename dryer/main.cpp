@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "common/io/command_line.hpp"
+#include "common/io/earlier_result.hpp"
 #include "common/io/granule.hpp"
 #include "common/io/machine.hpp"
 #include "common/io/output_lock.hpp"
@@ -15,9 +16,11 @@
 #include "dryer/continuum_command.hpp"
 #include "dryer/drying.hpp"
 #include "dryer/expected_cost.hpp"
+#include "dryer/outcome.hpp"
 #include "dryer/regime.hpp"
 #include "dryer/result.hpp"
 #include "dryer/scene.hpp"
+#include "dryer/stand_in.hpp"
 
 using namespace crumble;
 using namespace crumble::dryer;
@@ -33,11 +36,15 @@ ProgramDescription description() {
           {{"dryer hollow.toml -o hollow.h5 --seed 3 --report hollow.json", "dry one granule"},
            {"dryer hollow.toml -o soft.h5 --set contact.rolling_limit_factor=0",
             "the same droplet without rolling resistance"},
+           {"dryer spray.toml --fit-to \"1 h\" > small.toml",
+            "the scene of a smaller droplet that stands for one of too many particles"},
            {"dryer hollow.toml --check", "say what the scene means, run nothing"},
            {"dryer continuum --peclet 1 --theta 0.2,0.4 -o continuum.csv",
             "concentration of point particles; dryer continuum --help explains"}},
           version_text("dryer"),
           drying_parameters(),
+          true,
+          false,
           true};
 }
 
@@ -50,12 +57,17 @@ int dry(int argc, const char* const* argv) {
   const Machine machine = this_machine();
   omp_set_num_threads(line.threads > 0 ? line.threads : default_threads(omp_get_max_threads(), machine));
   const Scene text = Scene::read(line.scene, drying_parameters(), line.overrides);
+  if (!line.fit_to.empty()) {
+    deliver(stand_in(text, fit_to(line.fit_to), machine));
+    return 0;
+  }
   const DryingScene scene = drying_scene(text, machine);
   const Provenance provenance = make_provenance("dryer", {argv, argv + argc}, scene.seed, rng_name);
   Report report("dryer", provenance.version, line.scene, static_cast<std::int64_t>(scene.seed));
   ProgressPrinter progress(stderr, line.check ? line.scene : std::filesystem::path(line.output).stem().string(),
                            line.quiet);
   progress.say(granule_line(text, std::nullopt));
+  if (const std::string warning = material_warning(text); !warning.empty()) progress.say(warning);
   for (const std::string& fact : describe(scene)) progress.say(fact);
   const ExpectedCost cost = expected_cost(scene);
   progress.say(expected_cost_text(scene, cost, machine));
@@ -67,6 +79,7 @@ int dry(int argc, const char* const* argv) {
   }
 
   const OwnedOutputs owned(line.written, {});
+  if (!line.overwrite) require_no_other_result(line.output, provenance, text.resolved());
   const OutputCheckpoint checkpoint(line.output, {"dryer", provenance.version, text.resolved()});
   if (line.restart) checkpoint.require();
   if (checkpoint.found()) progress.say("resuming from " + checkpoint.path());
@@ -78,7 +91,10 @@ int dry(int argc, const char* const* argv) {
   drying.forget();
   report.add_earlier(checkpoint.used());
   fill_report(report, scene, drying.run(), result, drying.companion());
-  deliver(result_text(result, drying.companion()), [&] { report.write(line.report); });
+  report_outcome(report, scene, result);
+  report_real_granule(report, scene, result);
+  deliver(result_text(result, drying.companion()) + outcome_text(scene, result) + real_granule_text(scene, result),
+          [&] { report.write(line.report); });
   return 0;
 }
 

@@ -54,10 +54,27 @@ RadiusDistribution radius_distribution(const Scene& scene) {
 // Before the first array of this size is asked for.
 void refuse_beyond_memory(const Scene& scene, const std::string& key, double number, const Machine& machine) {
   if (memory_of(number) <= machine.memory) return;
-  throw scene.error(key, fmt::format("means {:.3g} particles, which take {:.2g} GB of memory; {:.2g} GB are free here. "
-                                     "Take at most {:.2g} particles, or another machine",
-                                     number, 1e-9 * memory_of(number), 1e-9 * machine.memory,
-                                     std::max(number * machine.memory / memory_of(number), 1.0)));
+  throw scene.error(
+      key,
+      fmt::format("means {:.3g} particles, which take {:.2g} GB of memory; {:.2g} GB are free here. "
+                  "Take at most {:.2g} particles, or another machine; --fit-to N prints a smaller droplet that stands "
+                  "for this one",
+                  number, 1e-9 * memory_of(number), 1e-9 * machine.memory,
+                  std::max(number * machine.memory / memory_of(number), 1.0)));
+}
+
+std::string number_key(const Scene& scene) {
+  return only_one_of(scene, {"particle.number", "particle.solids_fraction", "particle.weight_fraction"},
+                     "the number of particles");
+}
+
+// Of the volume of the droplet. From a share w of its weight: w/rho_p over w/rho_p + (1 - w)/rho.
+double solids_given(const Scene& scene, const std::string& key) {
+  const double share = scene.real(key);
+  if (key == "particle.solids_fraction") return share;
+  if (scene.origin("material.density") == Scene::Origin::by_default)
+    throw scene.error(key, "needs material.density, the density of the particles in kg m-3");
+  return volume_fraction(share, scene.real("material.density"), scene.real("fluid.density"));
 }
 
 std::vector<double> particle_radii(const Scene& scene, const Machine& machine) {
@@ -67,11 +84,10 @@ std::vector<double> particle_radii(const Scene& scene, const Machine& machine) {
     if (scene.is_set(key) && scene.real(key) >= R0)
       throw scene.error(
           key, fmt::format("no particle fits into droplet.radius = {:g} m ({})", R0, scene.where("droplet.radius")));
-  const std::string key =
-      only_one_of(scene, {"particle.number", "particle.solids_fraction"}, "the number of particles");
+  const std::string key = number_key(scene);
   const double capacity = std::pow(R0 / a, 3);  // N at 100 % solids
   const bool counted = key == "particle.number";
-  const double number = counted ? static_cast<double>(scene.integer(key)) : std::round(scene.real(key) * capacity);
+  const double number = particle_number(scene);
   if (number < 1)
     throw scene.error(key, fmt::format("is less than one particle; one alone is a fraction of {:.3g}", 1 / capacity));
   // Random sequential addition jams at 38 % of the volume that centres can take; long before that it crawls.
@@ -87,7 +103,7 @@ std::vector<double> particle_radii(const Scene& scene, const Machine& machine) {
   refuse_beyond_memory(scene, key, number, machine);
   const auto seed = static_cast<std::uint64_t>(scene.integer("run.seed"));
   std::vector<double> radius = counted ? radii_by_number(distribution, static_cast<std::size_t>(number), seed)
-                                       : radii_by_volume(distribution, scene.real(key) * R0 * R0 * R0, seed);
+                                       : radii_by_volume(distribution, solids_given(scene, key) * R0 * R0 * R0, seed);
   double solids = 0;
   for (const double each : radius) solids += each * each * each / (R0 * R0 * R0);
   if (radius.empty()) throw scene.error(key, "is less than one particle");
@@ -129,6 +145,18 @@ double lifetime(const Scene& scene, const ProcessInputs& given) {
 }
 
 }  // namespace
+
+double volume_fraction(double weight_fraction, double particle_density, double liquid_density) {
+  const double solids = weight_fraction / particle_density, liquid = (1 - weight_fraction) / liquid_density;
+  return solids / (solids + liquid);
+}
+
+double particle_number(const Scene& scene) {
+  const std::string key = number_key(scene);
+  if (key == "particle.number") return static_cast<double>(scene.integer(key));
+  return std::round(solids_given(scene, key) *
+                    std::pow(scene.real("droplet.radius") / scene.real("particle.radius"), 3));
+}
 
 double memory_of(double particles) { return 3e7 + 1200 * particles; }
 

@@ -17,7 +17,8 @@ struct ProcessInputs {
   double lifetime = 0;         // tau, s
 };
 
-// N is given as such or as a fraction of solids phi = sum a^3/R0^3. The speed of drying is given as one of
+// N is given as such, as a fraction of solids phi = sum a^3/R0^3, or as a fraction of the weight. The speed of drying
+// is given as one of
 //   tau                                          lifetime
 //   k = R0^2/tau,        R^2 = R0^2 - k t        evaporation constant (of the radius squared)    (Eq. 7)
 //   v = k/(2 R0)                                 speed of the front at the start                 (Eq. 24)
@@ -25,6 +26,12 @@ struct ProcessInputs {
 // Throws InputError naming file, line and keys where they contradict each other, say too little, or cannot be.
 // So does a droplet that would need more memory than the machine has.
 ProcessInputs process_inputs(const Scene& scene, const Machine& machine);
+
+// Volume fraction of particles of which this is the weight fraction; densities in one unit.
+double volume_fraction(double weight_fraction, double particle_density, double liquid_density);
+
+// N of the scene, of distributed radii about; nothing of that size is built.
+double particle_number(const Scene& scene);
 
 // At the peak of a run, bytes: 1200 a particle, rounded up from the 1,100 of stabilised steps in dryer/NOTEBOOK.md.
 double memory_of(double particles);

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "dryer/drag.hpp"
+#include "dryer/outcome.hpp"
 
 namespace crumble::dryer {
 
@@ -23,17 +24,17 @@ DryingRegime drying_regime(const DryingScene& s) {
   r.front_speed = droplet.front_speed(R0);
   r.packed_front_speed = droplet.front_speed(std::min(R0, std::cbrt(2 * solids)));
   r.capillary_speed = droplet.surface_tension / (3 * s.model.viscosity);
+  r.force_ratio = capillary_force(droplet.surface_tension, a, 0) /
+                  BondLaw(s.model.contact, s.model.material, a, a).pull_off_force();
   return r;
 }
 
-// At Pe = 10 the paper's granules are compact still (Table 2). Beyond Pe = 100 the steady profile exp(Pe rho^2/4) of
-// diffusion against the front falls by e within 2 % of the radius: nothing but a shell.
+// Beyond Pe = 100 the steady profile exp(Pe rho^2/4) of diffusion against the front falls by e within 2 % of the
+// radius. What becomes of the droplet is said by outcome.hpp.
 std::string DryingRegime::words() const {
-  std::string text = diffusion_dominated()
-                         ? "diffusion-dominated: Brownian motion keeps the particles spread, expect a compact granule"
-                     : advection_dominated()
-                         ? "advection-dominated: the front sweeps the particles into a shell, expect a hollow granule"
-                         : "between diffusion and advection: expect a thick crust around a thinner core";
+  std::string text = diffusion_dominated()   ? "diffusion-dominated: Brownian motion keeps the particles spread"
+                     : advection_dominated() ? "advection-dominated: the front sweeps the particles up"
+                                             : "between diffusion and advection";
   if (front_speed > capillary_speed)
     text += "; capillary-limited from the start: the front leaves the particles dry where they are";
   else if (capillary_limited())
@@ -86,6 +87,8 @@ std::vector<std::string> describe(const DryingScene& s) {
                               m / drag_coefficient(mu, a), drag_coefficient(mu, a) / law.normal_stiffness(),
                               s.model.droplet.lifetime));
   lines.push_back(r.words());
+  const Expected expected = expected_shape(r);
+  lines.push_back(fmt::format("expected shape: {}; {}", name_of(expected.shape), expected.why));
   if (steps_are_free(s)) lines.push_back(fmt::format("integrator: {}", integrator_text(s)));
   return lines;
 }
@@ -105,6 +108,8 @@ void report_regime(Report& report, const DryingScene& s) {
   report.result("inputs.evaporation_constant_m2_per_s", r.evaporation_constant);
   report.result("inputs.front_speed_m_per_s", r.front_speed);
   report.result("inputs.capillary_speed_limit_m_per_s", r.capillary_speed);
+  report.result("inputs.force_ratio", r.force_ratio);
+  report.result("inputs.packed_front_over_capillary_speed", r.packed_front_speed / r.capillary_speed);
   report.result("inputs.regime", r.words());
   if (steps_are_free(s)) report.result("inputs.integrator", integrator_text(s));
 }

@@ -18,6 +18,8 @@ struct DryingRegime {
   double packed_front_speed = 0;    // v where the solids fill half of the droplet, m/s
   double capillary_speed = 0;       // sigma/(3 mu), m/s: the largest force of Eq. 8 against the drag of Eq. 2, any a
 
+  double force_ratio = 0;  // largest capillary force (Eq. 8) over the pull-off force (Eq. 6) of a bond
+
   // Below this radius the front is faster than any particle can follow and leaves it dry, m.
   double outrun_radius() const { return evaporation_constant / (2 * capillary_speed); }
 

@@ -27,6 +27,19 @@ namespace {
 
 double relative(double value, double reference) { return std::abs(value - reference) / std::abs(reference); }
 
+// Relative; nothing where there was no companion run.
+struct DryingErrors {
+  std::optional<double> d_c, h_c_over_d_c, contacts;
+};
+
+DryingErrors errors(const Morphology& m, const std::optional<DryingOutcome>& companion) {
+  if (!companion) return {};
+  DryingErrors e{relative(companion->d_c, m.extent.diameter()),
+                 relative(companion->h_c_over_d_c, m.extent.relative_crust()), std::nullopt};
+  if (m.contacts > 0) e.contacts = relative(companion->contacts, static_cast<double>(m.contacts));
+  return e;
+}
+
 void fill_left_out(Report& report, const DryingScene& scene, const DryingRun& run) {
   const auto& s = run.integrator().statistics();
   const double spared = 100 * (1 - static_cast<double>(s.particle_steps) /
@@ -56,6 +69,14 @@ void fill_left_out(Report& report, const DryingScene& scene, const DryingRun& ru
 
 }  // namespace
 
+void write_errors(AgglomerateWriter& writer, const Morphology& m, const std::optional<DryingOutcome>& companion) {
+  const std::string how = "difference to the same run with doubled step control";
+  const DryingErrors e = errors(m, companion);
+  if (e.d_c) writer.put("/errors/d_c", *e.d_c, how);
+  if (e.h_c_over_d_c) writer.put("/errors/h_c_over_d_c", *e.h_c_over_d_c, how);
+  if (e.contacts) writer.put("/errors/contacts", *e.contacts, how);
+}
+
 void fill_report(Report& report, const DryingScene& scene, const DryingRun& run, const Morphology& m,
                  const std::optional<DryingOutcome>& companion) {
   const auto& s = run.integrator().statistics();
@@ -80,15 +101,11 @@ void fill_report(Report& report, const DryingScene& scene, const DryingRun& run,
       : scene.model.thermal_energy > 0
           ? "not estimated: with noise, runs of different steps part; the error of means over seeds is in the manual"
           : "not estimated: error.estimate = false";
-  std::optional<double> d_c, h_c, contacts;
-  if (companion) {
-    d_c = relative(companion->d_c, m.extent.diameter());
-    h_c = std::abs(companion->h_c_over_d_c - m.extent.relative_crust());
-    if (m.contacts > 0) contacts = relative(companion->contacts, static_cast<double>(m.contacts));
-  }
-  report.error("d_c_relative", d_c, how);
-  report.error("h_c_over_d_c", h_c, how);
-  report.error("contacts_relative", contacts, contacts || !companion ? how : "not estimated: no contacts");
+  const DryingErrors e = errors(m, companion);
+  report.error("d_c_relative", e.d_c, how);
+  report.error("h_c_over_d_c",
+               e.h_c_over_d_c ? std::optional(*e.h_c_over_d_c * m.extent.relative_crust()) : std::nullopt, how);
+  report.error("contacts_relative", e.contacts, e.contacts || !companion ? how : "not estimated: no contacts");
   fill_left_out(report, scene, run);
 }
 

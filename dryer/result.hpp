@@ -11,6 +11,7 @@
 namespace crumble::dryer {
 
 void append_frame(FrameLog& frames, const DryingRun& run);
+void write_errors(AgglomerateWriter& writer, const Morphology& m, const std::optional<DryingOutcome>& companion);
 void write_morphology(AgglomerateWriter& writer, const Morphology& morphology);
 
 // companion: outcome of the same run with doubled step control, if there was one.

@@ -81,6 +81,7 @@ DryingScene drying_scene(const Scene& scene, const Machine& machine) {
   s.model.dry = {scene.flag("dry.everything_acts"), scene.real("dry.drag_factor")};
   s.frames = frames(scene);
   s.checkpoint_interval = scene.real("output.checkpoint_interval");
+  if (scene.is_set("stands_for.number")) s.stands_for = scene.real("stands_for.number");
   // With noise the paths of two step lengths part; the error is one of means over many seeds.
   s.estimate_error = scene.flag("error.estimate") && s.model.thermal_energy == 0;
 

@@ -33,6 +33,7 @@ struct DryingScene {
   std::vector<double> frames;       // fractions 1 - R/R0 at which one is due, in order, besides the start and the end
   double checkpoint_interval = 60;  // s of wall time
   bool estimate_error = true;
+  std::optional<double> stands_for;  // particles of the droplet for which this smaller one stands
 
   double smallest_radius() const { return radius.back(); }
   double largest_radius() const { return radius.front(); }

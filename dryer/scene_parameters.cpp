@@ -26,6 +26,9 @@ Section fluid() {
                                 .above(0)
                                 .by_default(300)
                                 .formerly("liquid.temperature"));
+  keys.push_back(P::real("density", "kg m-3", "Density of the liquid; only particle.weight_fraction needs it")
+                     .above(0)
+                     .by_default(water_density));
   keys.push_back(
       P::real("surface_tension", "N m-1",
               "Surface tension sigma. The default is the paper's reduced value; water's is 400 times as large")
@@ -66,7 +69,10 @@ const ParameterTable& drying_parameters() {
   static const ParameterTable table{
       {"particle",
        "The primary particles: spheres, equal unless particle.distribution says otherwise.",
-       {P::real("radius", "m", "Radius a; lognormal: the median; bimodal: of the first kind").above(0),
+       {P::real("radius", "m", "Radius a; lognormal: the median; bimodal: of the first kind")
+            .or_by("diameter", 0.5)
+            .not_called("particle.size")
+            .above(0),
         P::choice("distribution", {"equal", "lognormal", "bimodal"},
                   "Of the radii by number. lognormal: within three standard deviations of ln a")
             .by_default("equal"),
@@ -76,10 +82,23 @@ const ParameterTable& drying_parameters() {
             .optional(),
         P::real("second_radius", "m", "bimodal: radius of the second kind").above(0).optional(),
         P::real("second_share", "", "bimodal: share of the second kind by number").above(0).below(1).optional(),
-        P::integer("number", "How many, N; or particle.solids_fraction").at_least(1).at_most(2147483647).optional(),
+        P::integer("number", "How many, N; or particle.solids_fraction or particle.weight_fraction")
+            .at_least(1)
+            .at_most(2147483647)
+            .optional(),
         P::real("solids_fraction", "",
                 "Volume of the particles in that of the droplet at the start: N = fraction (R0/a)^3, rounded; of "
                 "distributed radii as many as come nearest to it")
+            .or_by("volume_fraction", 1)
+            .above(0)
+            .below(1)
+            .optional(),
+        P::real(
+            "weight_fraction", "",
+            "Weight of the particles in that of the droplet at the start; needs material.density, and fluid.density "
+            "of the liquid")
+            .or_by("mass_fraction", 1)
+            .or_by("weight_percent", 0.01)
             .above(0)
             .below(1)
             .optional(),
@@ -90,10 +109,14 @@ const ParameterTable& drying_parameters() {
       fluid(),
       {"droplet",
        "The droplet: R(t)^2 = R0^2 - k t (Eq. 7). How fast it dries is said by exactly one of the last four keys.",
-       {P::real("radius", "m", "Radius R0 at the start").above(0),
-        P::real("lifetime", "s", "Time tau = R0^2/k at which the liquid is gone").above(0).optional(),
+       {P::real("radius", "m", "Radius R0 at the start").or_by("diameter", 0.5).not_called("droplet.size").above(0),
+        P::real("lifetime", "s", "Time tau = R0^2/k at which the liquid is gone")
+            .not_called("droplet.drying_time")
+            .above(0)
+            .optional(),
         P::real("evaporation_constant", "m2 s-1",
                 "Evaporation constant k of the radius squared. Tables often hold that of the diameter squared, 4 k")
+            .or_by("diameter_evaporation_constant", 0.25)
             .above(0)
             .optional(),
         P::real("front_speed", "m s-1", "Speed -dR/dt = k/(2 R0) of the surface at the start").above(0).optional(),
@@ -145,6 +168,11 @@ const ParameterTable& drying_parameters() {
         P::real("step", "s", "inertial: the fixed step; without it a fifth of the time scale of the stiffest contact")
             .above(0)
             .optional()}},
+      {"stands_for",
+       "The real droplet for which this smaller one stands; `dryer SCENE.toml --fit-to` writes it. The report then "
+       "says "
+       "what is known of the real granule.",
+       {P::real("number", "", "Particles in it").at_least(1).optional()}},
       {"error",
        "How the run judges itself.",
        {P::flag("estimate",

@@ -29,4 +29,4 @@ if [[ $fresh == yes ]]; then
 fi
 
 mkdir -p "$(dirname "$output")"
-exec "$program" "${inputs[@]}" -o "$output" --report "$report" "$@"
+exec "$program" "${inputs[@]}" -o "$output" --report "$report" --overwrite "$@"

@@ -6,6 +6,7 @@
 
 #include "common/agglomerate/morphology.hpp"
 #include "common/io/command_line.hpp"
+#include "common/io/earlier_result.hpp"
 #include "common/io/granule.hpp"
 #include "common/io/machine.hpp"
 #include "common/io/output_lock.hpp"
@@ -31,9 +32,11 @@ ProgramDescription description() {
            {"rigidstress stress-elongation.toml hollow.h5 -o fast.h5 --set hydrodynamics.method=fts",
             "far-field hydrodynamics, a tenth of a second"},
            {"rigidstress stress-elongation.toml stress.h5 -o more.h5 --set flow.uniaxial=true",
-            "another flow, nothing factorised again"}},
+            "another flow, nothing factorised again"},
+           {"rigidstress stress.toml hollow.h5 -o stress.h5 --at \"1e4 1/s\"", "does it hold at this shear rate?"}},
           version_text("rigidstress"),
           stress_parameters(),
+          true,
           true};
 }
 
@@ -67,15 +70,18 @@ int load(int argc, const char* const* argv) {
   const Parent parent{input, read_info(input).properties, mean_radius(agglomerate.particles)};
   inherit(text, parent);
   const StressScene scene = stress_scene(text);
+  const std::optional<ServiceLoad> at = service_load_at(line.at, scene.liquid);
   omp_set_num_threads(line.threads > 0 ? line.threads : default_threads(omp_get_max_threads(), this_machine()));
   std::optional<OwnedOutputs> owned;
   if (!line.check) owned.emplace(line.written, history_files(text));
   const Provenance provenance = make_provenance("rigidstress", {argv, argv + argc}, scene.seed, rng_name, input);
   Report report("rigidstress", provenance.version, line.scene, static_cast<std::int64_t>(scene.seed));
+  if (!line.check && !line.overwrite) require_no_other_result(line.output, provenance, text.resolved());
   ProgressPrinter progress(stderr, std::filesystem::path(input).stem().string(), line.quiet);
   const Say say = [&](const std::string& message) { progress.say(message); };
 
   say(granule_line(text, parent));
+  if (const std::string warning = material_warning(text); !warning.empty()) say(warning);
   report_inputs(report, text, parent);
   std::optional<Analysis> analysis = restore(input, text, scene);
   std::optional<Prepared> prepared;
@@ -111,7 +117,9 @@ int load(int argc, const char* const* argv) {
   });
   checkpoint.remove();
   fill_report(report, *analysis, scene);
-  deliver(result_text(*analysis, scene), [&] { report.write(line.report); });
+  std::string answer = result_text(*analysis, scene);
+  if (at) answer += told(report, *at, granule_strength(*analysis, scene, text));
+  deliver(answer, [&] { report.write(line.report); });
   return 0;
 }
 

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <limits>
 #include <numbers>
 
 #include "common/agglomerate/morphology.hpp"
+#include "common/io/granule.hpp"
 #include "rigidstress/mobility_numbers.hpp"
 
 namespace crumble::rigidstress {
@@ -15,16 +17,20 @@ namespace {
 struct Numbers {
   const Analysis& analysis;
   const BodyResult& body;
+  Liquid liquid;
   double a, force;  // m; N at a flow stress of 1 Pa
-  explicit Numbers(const Analysis& all)
+  Numbers(const Analysis& all, const StressScene& scene)
       : analysis(all),
         body(all.weakest()),
+        liquid(scene.liquid),
         a(mean_radius(all.prepared.particles)),
         force(6 * std::numbers::pi * a * a) {}
 
-  Report::Value critical_stress(const Peak& peak) const {
-    if (peak.contact < 0) return nullptr;
-    return 1 / peak.use;  // Pa
+  // A critical stress with the shear rate that reaches it; use: of the pull-off force at 1 Pa, 0: it never breaks.
+  void add_critical(Report& report, const std::string& group, const std::string& kind, double use) const {
+    const auto value = [&](double x) { return use > 0 ? Report::Value(x) : Report::Value(nullptr); };
+    report.result(group + ".critical_stress" + kind + "_pa", value(1 / use));
+    report.result(group + ".critical_shear_rate" + kind + "_per_s", value(liquid.shear_rate(1 / use)));
   }
   Report::Value pair(const Peak& peak) const {
     if (peak.contact < 0) return nullptr;
@@ -53,8 +59,8 @@ void add_straining(Report& report, const std::string& name, const Numbers& n, co
   const Peak peak = rest ? rest->peak : Peak{};
   add("n_max_settled", rest ? Report::Value(peak.tension / n.force) : Report::Value(nullptr));
   add("n_max_worst", r.worst.tension / n.force);
-  add("critical_stress_settled_pa", n.critical_stress(peak));
-  add("critical_stress_worst_pa", n.critical_stress(r.worst));
+  n.add_critical(report, name, "_settled", peak.use);
+  n.add_critical(report, name, "_worst", r.worst.use);
   add("contact", n.pair(peak));
   add("contact_distance_nm", n.distance_nm(peak));
   add("contact_worst", n.pair(r.worst));
@@ -81,9 +87,9 @@ void add_shear(Report& report, const Numbers& n, const ShearResult& r) {
   report.result("shear.n_max_orbit", r.mean_peak_tension / n.force);
   report.result("shear.n_max_time_mean", r.mean_tension / n.force);
   report.result("shear.mean_tumbling_time", r.mean_tumbling_time);
-  report.result("shear.critical_stress_pa", use > 0 ? Report::Value(1 / use) : Report::Value(nullptr));
+  n.add_critical(report, "shear", "", use);
   report.result("shear.n_max_supremum", r.supremum.tension / n.force);
-  report.result("shear.critical_stress_supremum_pa", n.critical_stress(r.supremum));
+  n.add_critical(report, "shear", "_supremum", r.supremum.use);
   report.result("shear.n_max_of_each_orbit", peaks);
   report.result("shear.contact", n.pair(worst.peak));
   report.result("shear.contact_distance_nm", n.distance_nm(worst.peak));
@@ -91,14 +97,13 @@ void add_shear(Report& report, const Numbers& n, const ShearResult& r) {
 
 void add_history(Report& report, const Numbers& n, const HistoryResult& r, const StressScene& scene) {
   const Orbit& worst = r.orbits[r.worst_orbit];
-  const double rate = scene.history->largest_rate(), mu = scene.viscosity;
+  const double rate = scene.history->largest_rate(), mu = scene.liquid.viscosity;
   report.result("history.n_max_orbit", r.mean_peak_tension / (n.force * rate));
   report.result("history.n_max_worst_orbit", worst.peak.tension / (n.force * rate));
   report.result("history.n_max_worst_orbit_n", mu * worst.peak.tension);
   report.result("history.use_of_pull_off", mu * worst.peak.use);
   report.result("history.largest_stress_pa", mu * rate);
-  report.result("history.critical_stress_pa",
-                worst.peak.use > 0 ? Report::Value(rate / worst.peak.use) : Report::Value(nullptr));
+  n.add_critical(report, "history", "", worst.peak.use / rate);
   report.result("history.time_s", worst.time[worst.peak_at]);
   report.result("history.contact", n.pair(worst.peak));
 }
@@ -132,7 +137,7 @@ double largest_self_stress(const Prepared& p) { return p.largest_tension; }
 }  // namespace
 
 void fill_report(Report& report, const Analysis& a, const StressScene& scene) {
-  const Numbers n(a);
+  const Numbers n(a, scene);
   const auto contacts = static_cast<std::int64_t>(a.prepared.frame.contacts.size());
   report.result("hydrodynamics", a.method);
   report.result("particles", static_cast<std::int64_t>(a.prepared.particles.size()));
@@ -184,43 +189,90 @@ std::vector<std::string> describe(const Prepared& p) {
   return lines;
 }
 
-std::string result_text(const Analysis& a, const StressScene& scene) {
-  const Numbers n(a);
-  std::string text;
-  const auto row = [&](const std::string& what, double tension, double use) {
-    const std::string stress = use > 0 ? fmt::format("{:10.0f}", 1 / use) : fmt::format("{:>10}", "never");
-    text += fmt::format("{:<34}{:8.3f}{}\n", what, tension / n.force, stress);
+namespace {
+
+// A line of the table: the same for people, for CSV, and for the answer to --at.
+struct Row {
+  std::string flow, what;  // what: of the flow is meant
+  double tension = 0, use = 0;
+  std::string_view device;
+  std::string name() const { return flow + ", " + what; }
+};
+
+std::vector<Row> table(const Numbers& n) {
+  std::vector<Row> rows;
+  const auto straining = [&](const std::string& flow, const std::optional<StrainingResult>& r) {
+    if (!r) return;
+    if (const Attractor* rest = settled(*r))
+      rows.push_back({flow, fmt::format("settled ({:.0f} %)", 100 * rest->share), rest->peak.tension, rest->peak.use,
+                      device_of(flow)});
+    rows.push_back({flow, "worst orientation", r->worst.tension, r->worst.use,
+                    device_of(flow == "elongation" ? "turbulence" : flow)});
   };
+  straining("elongation", n.body.elongation);
+  straining("uniaxial", n.body.uniaxial);
+  straining("biaxial", n.body.biaxial);
+  if (const auto& r = n.body.shear) {
+    double use = 0;
+    for (const Orbit& orbit : r->orbits) use += orbit.peak.use / static_cast<double>(r->orbits.size());
+    const Peak& worst = r->orbits[r->worst_orbit].peak;
+    rows.push_back(
+        {"shear", fmt::format("mean over {} orbits", r->orbits.size()), r->mean_peak_tension, use, device_of("shear")});
+    rows.push_back({"shear", "worst orbit", worst.tension, worst.use, device_of("shear")});
+  }
+  return rows;
+}
+
+}  // namespace
+
+std::string result_text(const Analysis& a, const StressScene& scene) {
+  const Numbers n(a, scene);
+  std::string text;
   text += fmt::format("hydrodynamics {}\n", a.method);
   text += a.error ? fmt::format("largest tension within {:.2g} % ({})\n", 100 * *a.error, a.how)
                   : fmt::format("error of the largest tension {}\n", a.how);
   const MobilityNumbers m = mobility_numbers(n.body.loaded.response.drag);
   text += fmt::format("hydrodynamic radius {:.4f} a\n\n", m.hydrodynamic_radius / n.a);
-  text += fmt::format("{:<34}{:>8}{:>10}\n", "N_max/(6 pi mu gamma_dot a^2)", "", "breaks, Pa");
-  const auto straining_rows = [&](const std::string& name, const std::optional<StrainingResult>& r) {
-    if (!r) return;
-    if (const Attractor* rest = settled(*r))
-      row(fmt::format("{}, settled ({:.0f} %)", name, 100 * rest->share), rest->peak.tension, rest->peak.use);
-    row(name + ", worst orientation", r->worst.tension, r->worst.use);
-  };
-  straining_rows("elongation", n.body.elongation);
-  straining_rows("uniaxial", n.body.uniaxial);
-  straining_rows("biaxial", n.body.biaxial);
+  text += fmt::format("{:<34}{:>8}{:>12}{:>14}  {}\n", "N_max/(6 pi mu gamma_dot a^2)", "", "breaks, Pa",
+                      "that is, 1/s", "as in");
+  for (const Row& row : table(n)) {
+    const double stress = 1 / row.use;
+    text += fmt::format("{:<34}{:8.3f}", row.name(), row.tension / n.force);
+    text += row.use > 0 ? fmt::format("{:12.0f}{:14.3g}", stress, n.liquid.shear_rate(stress))
+                        : fmt::format("{:>12}{:>14}", "never", "-");
+    text += fmt::format("  {}\n", row.device);
+  }
   if (const auto& r = n.body.shear) {
-    double use = 0;
-    for (const Orbit& orbit : r->orbits) use += orbit.peak.use / static_cast<double>(r->orbits.size());
-    row(fmt::format("shear, mean over {} orbits", r->orbits.size()), r->mean_peak_tension, use);
-    row("shear, worst orbit", r->orbits[r->worst_orbit].peak.tension, r->orbits[r->worst_orbit].peak.use);
     text += fmt::format("{:<34}{:8.3f}\n", "shear, mean over time", r->mean_tension / n.force);
     text += fmt::format("{:<34}{:8.2f} 1/gamma_dot\n", "shear, mean tumbling time", r->mean_tumbling_time);
   }
+  text += fmt::format("1/s: shear rate sqrt(2 E:E) in this liquid of {:g} Pa s{}\n", n.liquid.viscosity,
+                      n.body.uniaxial || n.body.biaxial ? "; a uniaxial extension rate times sqrt(3)" : "");
   if (const auto& r = n.body.history) {
     const Orbit& worst = r->orbits[r->worst_orbit];
-    text +=
-        fmt::format("history: {:.3g} % of the pull-off force at t = {:g} s{}\n", 100 * scene.viscosity * worst.peak.use,
-                    worst.time[worst.peak_at], scene.viscosity * worst.peak.use >= 1 ? ": it breaks" : "");
+    const double use = scene.liquid.viscosity * worst.peak.use;
+    text += fmt::format("history: {:.3g} % of the pull-off force at t = {:g} s{}\n", 100 * use,
+                        worst.time[worst.peak_at], use >= 1 ? ": it breaks" : "");
   }
   return text;
+}
+
+GranuleStrength granule_strength(const Analysis& a, const StressScene& scene, const Scene& text) {
+  const Numbers n(a, scene);
+  GranuleStrength s;
+  s.borne = std::numeric_limits<double>::infinity();
+  for (const Row& row : table(n)) {
+    if (!s.stress || (row.use > 0 && 1 / row.use < *s.stress)) s.flow = row.name();
+    if (row.use > 0) s.stress = std::min(s.stress.value_or(1 / row.use), 1 / row.use);
+  }
+  if (s.flow.empty()) throw InputError("--at: the scene has no flow to compare with; set flow.elongation = true");
+  s.error = a.error;
+  s.how = a.how;
+  s.surface_energy = scene.material.surface_energy;
+  s.surface_energy_from = source_of(text, "material.surface_energy");
+  const Particles& p = a.prepared.particles;
+  s.diameter = radial_extent(a.prepared.frame.position, p.radius, p.mass).diameter();
+  return s;
 }
 
 }  // namespace crumble::rigidstress

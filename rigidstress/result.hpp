@@ -10,6 +10,9 @@
 namespace crumble::rigidstress {
 
 void fill_report(Report& report, const Analysis& analysis, const StressScene& scene);
+// The weakest of the flows; text: the scene as given.
+GranuleStrength granule_strength(const Analysis& analysis, const StressScene& scene, const Scene& text);
+
 std::string result_text(const Analysis& analysis, const StressScene& scene);
 
 // What closing did to the agglomerate, a line each.

@@ -16,8 +16,8 @@ namespace {
 using P = Parameter;
 
 Section fluid() {
-  Section section = fluid_section();
-  section.meaning += " Only a velocity-gradient history needs it, all else is said per mu gamma_dot.";
+  Section section = loading_fluid_section();
+  section.meaning += " Only shear rates and a velocity-gradient history need it, all else is said per mu gamma_dot.";
   return section;
 }
 
@@ -139,7 +139,7 @@ StressScene stress_scene(const Scene& scene) {
   require_radius(scene, "particle.radius");
   if (scene.is_set("particle.radius")) s.radius = scene.real("particle.radius");
   s.material = material_in(scene);
-  s.viscosity = scene.real("fluid.viscosity");
+  s.liquid = liquid_in(scene);
   s.joint.normal =
       scene.choice("contact.normal_stiffness") == "tangent" ? NormalStiffness::tangent : NormalStiffness::secant;
   s.joint.twisting_factor = scene.real("contact.twisting_stiffness_factor");

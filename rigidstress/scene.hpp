@@ -6,6 +6,7 @@
 #include "common/agglomerate/rescaled.hpp"
 #include "common/io/output_file.hpp"
 #include "common/io/parameters.hpp"
+#include "common/io/service_load.hpp"
 #include "common/rigid/joint.hpp"
 #include "rigidstress/flows.hpp"
 #include "rigidstress/history.hpp"
@@ -20,7 +21,7 @@ enum class Pieces { refuse, largest, each };
 struct StressScene {
   std::optional<double> radius;  // m
   Material material;
-  double viscosity = 1;  // Pa s; the history only
+  Liquid liquid{1, 1000};  // shear rates and the history only
   JointChoice joint;
   Pieces pieces = Pieces::refuse;
   double largest_gap = largest_listed_gap;  // in a

@@ -157,9 +157,10 @@ void write_history(AgglomerateWriter& writer, const Analysis& a, const StressSce
   for (const BodyResult& b : a.bodies) {
     const Orbit& path = b.history->orbits[b.history->worst_orbit];
     const double t = path.time[path.peak_at];
-    set_tensions(record, b, TurningBody::strain_seen(path.orientation[path.peak_at], history(t)), scene.viscosity);
+    set_tensions(record, b, TurningBody::strain_seen(path.orientation[path.peak_at], history(t)),
+                 scene.liquid.viscosity);
   }
-  add_orbit(record, orbit, scene.viscosity);
+  add_orbit(record, orbit, scene.liquid.viscosity);
   if (orbit.peak.use > 0) record.critical_stress = history.largest_rate() / orbit.peak.use;
   write_flow(writer, "history", a, record);
 }

@@ -41,6 +41,8 @@ constexpr Range allowed[] = {
     {"/flows/<name>/radial_position", 0, none},
     {"/flows/<name>/share", 0, 1 + 1e-9},
     {"/flows/<name>/critical_stress", std::numeric_limits<double>::min(), none},
+    {"/errors/<name>", 0, none},
+    {"/breakup/critical_stress", 0, none},
     {"/events/stress", 0, none},
     {"/events/kind", 0, 5},
     {"/events/fragment_sizes", 1, none},

@@ -34,8 +34,9 @@ std::string help_footer(const ProgramDescription& program) {
 // What CLI11 has read, still as text: its own conversions and ranges have messages that nobody can read.
 struct Raw {
   std::vector<std::string> files, sets;
-  std::string output, report, seed, threads;
-  bool check = false, quiet = false, restart = false, version = false, defaults = false, reference = false;
+  std::string output, report, seed, threads, at, fit_to;
+  bool check = false, quiet = false, restart = false, overwrite = false, version = false, defaults = false,
+       reference = false;
 };
 
 void declare(CLI::App& app, Raw& raw, const ProgramDescription& program) {
@@ -52,7 +53,18 @@ void declare(CLI::App& app, Raw& raw, const ProgramDescription& program) {
   app.add_option("--threads", raw.threads, "number of threads")->type_name("N");
   app.add_option("--report", raw.report, "results, their errors and the cost of the run as JSON")
       ->type_name("FILE.json");
+  if (program.loads_granules)
+    app.add_option("--at", raw.at,
+                   "does it hold there? A flow stress, a shear rate in the liquid, or the dissipation rate of "
+                   "turbulence, each with its unit: \"100 Pa\", \"1e4 1/s\", \"10 W/kg\"")
+        ->type_name("LOAD");
+  if (program.fits_scenes)
+    app.add_option("--fit-to", raw.fit_to,
+                   "print the scene of a smaller droplet that stands for this one: with so many particles, or that "
+                   "dries in this time on one core (\"1 h\"); runs nothing")
+        ->type_name("N|TIME");
   app.add_flag("--check", raw.check, "read and build everything, run nothing");
+  app.add_flag("--overwrite", raw.overwrite, "replace what stands at -o, although it is the result of another scene");
   if (program.keeps_checkpoint)
     app.add_flag("--restart", raw.restart,
                  "go on from the checkpoint of -o, which must be there; without this a run goes on if there is one and "
@@ -125,7 +137,7 @@ void take_files(const ProgramDescription& program, const Raw& raw, CommandLine& 
   command.inputs.assign(raw.files.begin() + 1, raw.files.end());
   command.output = raw.output;
   command.report = raw.report;
-  if (command.output.empty() && !raw.check) throw misuse(program, "-o FILE.h5 is missing");
+  if (command.output.empty() && !raw.check && raw.fit_to.empty()) throw misuse(program, "-o FILE.h5 is missing");
   check_outputs(program, command);
 }
 
@@ -143,9 +155,12 @@ CommandLine interpret(const ProgramDescription& program, const Raw& raw) {
   }
   if (!raw.threads.empty())
     command.threads = static_cast<int>(whole_number(program, "--threads", raw.threads, 1, 1024));
+  command.at = raw.at;
+  command.fit_to = raw.fit_to;
   command.check = raw.check;
   command.quiet = raw.quiet;
   command.restart = raw.restart;
+  command.overwrite = raw.overwrite;
   return command;
 }
 

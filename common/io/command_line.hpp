@@ -22,6 +22,8 @@ struct ProgramDescription {
   std::string version;            // the whole answer to --version
   ParameterTable parameters;      // --seed exists if run.seed is declared
   bool keeps_checkpoint = false;  // --restart exists
+  bool loads_granules = false;    // --at exists
+  bool fits_scenes = false;       // --fit-to exists
 };
 
 struct CommandLine {
@@ -32,8 +34,11 @@ struct CommandLine {
   std::string report;                // empty: none wanted
   std::vector<WrittenFile> written;  // both, as they were typed, for OwnedOutputs
   int threads = 0;                   // 0: as many as OpenMP takes by itself
+  std::string fit_to;                // of what fits; empty: not asked for
+  std::string at;                    // load in service; empty: not asked for
   bool check = false, quiet = false;
-  bool restart = false;  // a checkpoint must be there
+  bool restart = false;    // a checkpoint must be there
+  bool overwrite = false;  // a result of another scene is replaced
 
   // What --help, --version, --print-defaults or --print-reference asked for: print it to stdout and end with 0.
   std::optional<std::string> answer;

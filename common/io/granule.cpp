@@ -4,11 +4,11 @@
 
 #include <cmath>
 
+#include "common/contact/material.hpp"
+
 namespace crumble {
 
-namespace {
-
-const char* source(const Scene& scene, const std::string& key) {
+std::string source_of(const Scene& scene, const std::string& key) {
   switch (scene.origin(key)) {
     case Scene::Origin::given:
       return "scene";
@@ -18,6 +18,8 @@ const char* source(const Scene& scene, const std::string& key) {
       return "default";
   }
 }
+
+namespace {
 
 // The number, or the word that stands for it.
 std::string shown(const Scene& scene, const std::string& key) {
@@ -37,7 +39,7 @@ bool differs(const Scene& scene, const std::string& key, const std::optional<dou
 std::string with_source(const Scene& scene, const std::optional<Parent>& parent, const std::string& key,
                         const char* name, const char* unit) {
   const auto other = in_file(parent, key);
-  return fmt::format("{} {}{} ({}{})", name, shown(scene, key), unit, source(scene, key),
+  return fmt::format("{} {}{} ({}{})", name, shown(scene, key), unit, source_of(scene, key),
                      differs(scene, key, other) ? fmt::format("; the file says {:g}", *other) : "");
 }
 
@@ -87,15 +89,28 @@ std::string granule_line(const Scene& scene, const std::optional<Parent>& parent
   return line;
 }
 
+std::string material_warning(const Scene& scene) {
+  const Material table_1;
+  const std::string energy = "material.surface_energy", modulus = "material.youngs_modulus";
+  if (scene.origin(energy) != Scene::Origin::by_default || scene.real(modulus) == table_1.youngs_modulus) return "";
+  return fmt::format(
+      "warning: E = {:g} Pa ({}) is of another material than the surface energy, {:g} J/m2, which is the default (E = "
+      "{:g} "
+      "Pa); every strength is proportional to it. Set material.surface_energy; common/contact/SURFACE_ENERGY.md has "
+      "values",
+      scene.real(modulus), source_of(scene, modulus), scene.real(energy), table_1.youngs_modulus);
+}
+
 void report_inputs(Report& report, const Scene& scene, const std::optional<Parent>& parent) {
   for (const std::string& key : scene.keys()) report.input(key, scene.value(key));
-  const auto about = [&](const std::string& key, const char* from, std::optional<double> other) {
+  if (const std::string warning = material_warning(scene); !warning.empty()) report.result("material_warning", warning);
+  const auto about = [&](const std::string& key, const std::string& from, std::optional<double> other) {
     report.granule(key, scene.value(key), from, other);
   };
   about("particle.radius", scene.is_set("particle.radius") ? "scene" : "file",
         parent ? std::optional(parent->radius) : std::nullopt);
   for (const TravellingKey& k : travelling_keys())
-    if (const std::string key(k.key); scene.declares(key)) about(key, source(scene, key), in_file(parent, key));
+    if (const std::string key(k.key); scene.declares(key)) about(key, source_of(scene, key), in_file(parent, key));
 }
 
 }  // namespace crumble

@@ -123,6 +123,26 @@ Parameter Parameter::list(std::string name, std::string unit, std::string meanin
   return p;
 }
 
+Parameter Parameter::or_by(std::string other, double factor) const {
+  Parameter p = *this;
+  p.synonyms.push_back({std::move(other), factor});
+  return p;
+}
+
+Parameter Parameter::not_called(std::string key) const {
+  Parameter p = *this;
+  p.wrong_names.push_back(std::move(key));
+  return p;
+}
+
+std::string Parameter::explained() const {
+  std::string text = meaning;
+  for (const Synonym& s : synonyms)
+    text += s.factor == 1 ? fmt::format("; or `{}`", s.name)
+                          : fmt::format("; or `{}`, {:g} times that", s.name, 1 / s.factor);
+  return text;
+}
+
 Parameter Parameter::formerly(std::string key) const {
   Parameter p = *this;
   p.former.push_back(std::move(key));
@@ -235,7 +255,7 @@ std::string default_scene(const ParameterTable& table) {
     // A repeated section has no default: all of it is a comment.
     out += "\n" + with_comment_marks(section.meaning) + (section.repeated ? "# " : "") + heading(section) + "\n";
     for (const auto& p : section.parameters) {
-      out += with_comment_marks(p.meaning + (p.range().empty() ? "" : " (" + p.range() + ")"));
+      out += with_comment_marks(p.explained() + (p.range().empty() ? "" : " (" + p.range() + ")"));
       out += assignment(p, section.repeated ? std::nullopt : p.fallback);
     }
   }
@@ -249,7 +269,7 @@ std::string parameter_page(const ParameterTable& table) {
     out += "| key | default | unit | range | meaning |\n|---|---|---|---|---|\n";
     for (const auto& p : section.parameters)
       out += fmt::format("| `{}.{}` | {} | {} | {} | {} |\n", section.name, p.name, status_of(p), p.unit, p.range(),
-                         p.meaning);
+                         p.explained());
   }
   return out;
 }

@@ -38,6 +38,12 @@ class Parameter {
   // A real may also be named by one of these words, of which the program knows the number: viscosity = "water".
   Parameter or_word(std::vector<std::string> words) const;
 
+  // A real may be given by another key of its section, whose value times `factor` it is: a radius by a diameter, 0.5.
+  // One way of the two, not both.
+  Parameter or_by(std::string other, double factor) const;
+  // Full name by which others call it: in a scene an error that says what it is called here.
+  Parameter not_called(std::string key) const;
+
   // The full name by which earlier versions called it. In a scene that is an error that says so.
   Parameter formerly(std::string key) const;
 
@@ -56,11 +62,17 @@ class Parameter {
   std::string name, unit, meaning;
   Kind kind = Kind::real;
   std::vector<std::string> choices;  // of a choice; words of a real
-  std::vector<std::string> former;
+  struct Synonym {
+    std::string name;
+    double factor;
+  };
+  std::vector<Synonym> synonyms;
+  std::vector<std::string> former, wrong_names;
   std::optional<ParameterValue> fallback;
   bool is_optional = false;
   std::optional<Bound> low, high;
 
+  std::string explained() const;      // meaning and synonyms
   std::string range() const;          // "> 0", "0 to 0.5", "jkr or cundall-strack"; empty if anything goes
   std::string what_it_takes() const;  // "a number > 0 in m"
   // What is wrong with a value of the right kind ("must be > 0"), or nothing.

@@ -135,6 +135,11 @@ class SceneReader {
       for (const auto& key : section.former) former_[key] = fmt::format("[[{}]]", section.name);
       for (const auto& p : section.parameters) {
         for (const auto& key : p.former) former_[key] = section.name + "." + p.name;
+        for (const auto& key : p.wrong_names) wrong_names_[key] = section.name + "." + p.name;
+        for (const auto& s : p.synonyms) {
+          synonyms_[section.name + "." + s.name] = {section.name + "." + p.name, s.factor};
+          keys_.push_back(section.name + "." + s.name);
+        }
         if (!section.repeated) declare(section.name + "." + p.name, p);
       }
     }
@@ -158,6 +163,19 @@ class SceneReader {
   void apply(const Override& change) {
     if (const Section* section = repeated(change.key)) return apply_repeated(change, *section);
     if (former_.contains(change.key)) return renamed(change.origin, change.key);
+    if (wrong_names_.contains(change.key)) return called_otherwise(change.origin, change.key);
+    if (synonyms_.contains(change.key)) {
+      Scene::Entry& entry = scene_.entries_.at(synonyms_.at(change.key).key);
+      entry.where.clear();  // takes the place of what the scene says
+      try {
+        const toml::table parsed = toml::parse("value = " + change.value);
+        if (parsed.size() == 1) return read_synonym(*parsed.get("value"), change.key, change.origin);
+      } catch (const toml::parse_error&) {
+      }
+      entry.where = change.origin;  // wrong, but not missing
+      wrong_.push_back(fmt::format("{}: {} = {}: must be a number", change.origin, change.key, shown(change.value)));
+      return;
+    }
     if (!scene_.entries_.contains(change.key)) return unknown_key(change.origin, change.key);
     Scene::Entry& entry = scene_.entries_.at(change.key);
     const auto& words = entry.parameter.choices;
@@ -224,6 +242,10 @@ class SceneReader {
         read_repeated(node, *section, where);
       else if (scene_.entries_.contains(key))
         read_value(node, key, where);
+      else if (synonyms_.contains(key))
+        read_synonym(node, key, where);
+      else if (wrong_names_.contains(key))
+        called_otherwise(where, key);
       else if (former_.contains(key))
         stored_ ? read_former(node, former_.at(key), where) : renamed(where, key);
       else if (node.is_table() && leads_to_former_key(key))
@@ -250,6 +272,35 @@ class SceneReader {
 
   void renamed(const std::string& where, const std::string& key) {
     wrong_.push_back(fmt::format("{}: '{}' is now called '{}'", where, key, former_.at(key)));
+  }
+
+  void called_otherwise(const std::string& where, const std::string& key) {
+    wrong_.push_back(fmt::format("{}: unknown key '{}'; it is called '{}' here", where, key, wrong_names_.at(key)));
+  }
+
+  // Synonyms come before or after the key itself, as the letters have it.
+  void read_synonym(const toml::node& node, const std::string& key, const std::string& where) {
+    const auto& [meant, factor] = synonyms_.at(key);
+    Scene::Entry& entry = scene_.entries_.at(meant);
+    if (given_twice(entry, where, key, given_as_.contains(meant) ? given_as_.at(meant) : meant)) return;
+    given_as_[meant] = key;
+    const auto number = node.is_number() ? node.value<double>() : std::nullopt;
+    if (!number) {
+      entry.where = where;  // wrong, but not missing
+      wrong_.push_back(fmt::format("{}: {} = {}: must be a number", where, key, shown(node)));
+      return;
+    }
+    store(entry, meant, factor * *number, fmt::format("{:g} (from {} = {})", factor * *number, key, shown(node)),
+          where);
+  }
+
+  // The same thing by two keys; one of the two must go.
+  bool given_twice(const Scene::Entry& entry, const std::string& where, const std::string& key,
+                   const std::string& other) {
+    if (entry.where.empty() || !where.starts_with(scene_.file_ + ":")) return false;
+    wrong_.push_back(
+        fmt::format("{}: {} says again what {} says ({}); remove one of the two", where, key, other, entry.where));
+    return true;
   }
 
   // A value of an earlier version that has another form now is left out: the default stands.
@@ -315,6 +366,9 @@ class SceneReader {
 
   void read_value(const toml::node& node, const std::string& key, const std::string& where) {
     Scene::Entry& entry = scene_.entries_.at(key);
+    if (const auto other = given_as_.find(key);
+        other != given_as_.end() && given_twice(entry, where, key, other->second))
+      return;
     const auto kind = entry.parameter.kind;
     std::optional<ParameterValue> value;
     if (kind == Parameter::Kind::real && node.is_floating_point()) value = node.as_floating_point()->get();
@@ -341,7 +395,14 @@ class SceneReader {
   Scene scene_;
   bool stored_ = false;  // a resolved scene out of a file
   std::vector<std::string> keys_, section_names_, wrong_;
-  std::map<std::string, std::string> former_;  // former names -> what they are called now
+  struct Meant {
+    std::string key;
+    double factor;
+  };
+  std::map<std::string, std::string> given_as_;     // by which synonym
+  std::map<std::string, Meant> synonyms_;           // full names
+  std::map<std::string, std::string> wrong_names_;  // what others call it -> what it is called here
+  std::map<std::string, std::string> former_;       // former names -> what they are called now
 };
 
 Scene Scene::parse(const std::string& text, const std::string& file, const ParameterTable& table,

@@ -175,7 +175,8 @@ void ProgressPrinter::begin(std::string label) {
   begin_ = due_ = heard_ = Clock::now();
 }
 
-void ProgressPrinter::update(double fraction, std::int64_t steps, const std::function<std::string()>& status) {
+void ProgressPrinter::update(double fraction, std::int64_t steps, const std::function<std::string()>& status,
+                             const std::optional<StepRange>& all) {
   if (quiet_) return;
   const auto now = Clock::now();
   if (now < due_) return;
@@ -183,7 +184,7 @@ void ProgressPrinter::update(double fraction, std::int64_t steps, const std::fun
   const bool first = due_ == begin_;
   const double elapsed = std::chrono::duration<double>(now - begin_).count();
   due_ = now + std::chrono::milliseconds(std::lround(1000 * interval(live_, elapsed)));
-  last_line_ = progress_.line(elapsed, fraction, steps, status());
+  last_line_ = progress_.line(elapsed, fraction, steps, status(), all);
   hand_ = "in one step";
   heard_ = now;
   if (live_ || !first) print(last_line_);  // in a log nothing is known yet

@@ -33,7 +33,8 @@ class ProgressPrinter {
   ProgressPrinter& operator=(const ProgressPrinter&) = delete;
 
   // Call as often as you like; `status` is asked for only when a line is due.
-  void update(double fraction, std::int64_t steps, const std::function<std::string()>& status);
+  void update(double fraction, std::int64_t steps, const std::function<std::string()>& status,
+              const std::optional<StepRange>& all = std::nullopt);
   // Another run is reported from now on.
   void begin(std::string label);
   // What takes its time from now on: "filling the droplet".

@@ -17,7 +17,29 @@ std::string duration_text(double seconds) {
   return fmt::format("{} d {} h", s / 86400, s % 86400 / 3600);
 }
 
-std::string Progress::line(double now, double fraction, std::int64_t steps, const std::string& status) {
+std::string duration_range(double low, double high) {
+  const auto in = [&](double unit, const char* name) {
+    return fmt::format("{:.2g} to {:.2g} {}", low / unit, high / unit, name);
+  };
+  if (high < 90) return in(1, "s");
+  if (high < 5400) return in(60, "min");
+  if (high < 2 * 86400) return in(3600, "h");
+  return in(86400, "days");
+}
+
+namespace {
+
+// Of the steps that are left, at the speed of the last ones.
+std::string left(const StepRange& all, double done, double seconds_a_step) {
+  if (done > all.most) return ", longer than expected";
+  const double low = std::max(all.least - done, 0.0) * seconds_a_step, high = (all.most - done) * seconds_a_step;
+  return ", " + (low > 0 ? duration_range(low, high) : "up to " + duration_text(high)) + " left";
+}
+
+}  // namespace
+
+std::string Progress::line(double now, double fraction, std::int64_t steps, const std::string& status,
+                           const std::optional<StepRange>& all) {
   constexpr std::size_t memory = 8;  // reports
   std::string out = fmt::format("{}: {:3.0f} %", label_, 100 * std::clamp(fraction, 0.0, 1.0));
   if (!marks_.empty() && steps < marks_.back().steps) marks_.clear();
@@ -25,7 +47,10 @@ std::string Progress::line(double now, double fraction, std::int64_t steps, cons
     const Mark& old = marks_.front();
     const double seconds = now - old.time, gained = fraction - old.fraction;
     if (seconds > 0) out += fmt::format(", {:.2g} steps/s", static_cast<double>(steps - old.steps) / seconds);
-    if (seconds > 0 && gained > 0) out += ", " + duration_text((1 - fraction) * seconds / gained) + " left";
+    if (all && seconds > 0 && steps > old.steps)
+      out += left(*all, static_cast<double>(steps), seconds / static_cast<double>(steps - old.steps));
+    else if (seconds > 0 && gained > 0)
+      out += ", " + duration_text((1 - fraction) * seconds / gained) + " left";
   }
   marks_.push_back({now, fraction, steps});
   if (marks_.size() > memory) marks_.pop_front();

@@ -126,7 +126,9 @@ constexpr auto rows = std::to_array<Entry>({
   {"/flows/<name>/share", dataset, f64, "K", "", none, "share of random starts that end in each orientation"},
   {"/flows/<name>/critical_stress", dataset, f64, "", "Pa", none, "viscosity times shear rate that breaks a contact"},
 
-  // Breakup
+  // How far each result can be relied on, and breakup. Since version 1.2
+  {"/errors/<name>", dataset, f64, "", "", none, "numerical error of a result as the run states it, relative: d_c, h_c_over_d_c, contacts, critical_stress"},
+  {"/breakup/critical_stress", dataset, f64, "", "Pa", none, "flow stress at which the last path of contacts to what was lost gave way"},
   {"/flow@type", attribute, str, "", "", none, "kind of flow", "", "", "quiescent|elongation|elongational|shear|uniaxial|biaxial"},
   {"/flow/gradient", dataset, f64, "3 3", "", none, "velocity gradient for unit shear rate, row i, column j: du_i/dx_j"},
   {"/events/time", dataset, f64, "E", "s", none, "instants, in order"},

@@ -13,7 +13,7 @@ namespace crumble::schema {
 
 // Files of another major version, or of a newer minor version, are refused. An addition raises the minor number, a
 // changed meaning the major one.
-inline constexpr int version_major = 1, version_minor = 1;
+inline constexpr int version_major = 1, version_minor = 2;
 
 // Which program wrote the file; a row of the table names the stages in which it is required.
 enum Stage : unsigned { none = 0, dryer = 1, breaker = 2, rigidstress = 4, agglomerate = 8, all = 15 };

@@ -8,6 +8,8 @@ using P = Parameter;
 
 std::vector<Parameter> agglomerate_parameters(std::vector<std::string> fragments, const std::string& meaning) {
   return {P::real("radius", "m", "Mean radius a to which the agglomerate is scaled; without it the file's own")
+              .or_by("diameter", 0.5)
+              .not_called("particle.size")
               .above(0)
               .optional(),
           P::choice("fragments", std::move(fragments), meaning).by_default("refuse").formerly("structure.fragments"),
@@ -26,12 +28,15 @@ Section material_section() {
            P::real("poisson_ratio", "", "Poisson ratio nu").above(-1).at_most(0.5).by_default(table_1.poisson_ratio),
            P::real("surface_energy", "J m-2", "Superficial energy gamma_s of one surface")
                .above(0)
+               .not_called("contact.surface_energy")
+               .not_called("particle.surface_energy")
                .by_default(table_1.surface_energy)}};
 }
 
 Parameter density_parameter() {
   return P::real("density", "kg m-3", "Density rho_p; matters to the inertial integrator only")
       .above(0)
+      .not_called("particle.density")
       .by_default(Material{}.density);
 }
 
@@ -90,6 +95,17 @@ Section fluid_section() {
           "The liquid: in the droplet, and around the agglomerate.",
           {P::real("viscosity", "Pa s", "Viscosity mu").above(0).by_default(1e-3).formerly("liquid.viscosity")}};
 }
+
+Section loading_fluid_section() {
+  Section section = fluid_section();
+  section.parameters.push_back(
+      P::real("density", "kg m-3", "Density rho of the liquid; only a dissipation rate in W/kg (--at) needs it")
+          .above(0)
+          .by_default(water_density));
+  return section;
+}
+
+Liquid liquid_in(const Scene& scene) { return {scene.real("fluid.viscosity"), scene.real("fluid.density")}; }
 
 Section hydrodynamics_section(std::vector<std::string> methods, const char* by_default, const std::string& meaning) {
   return {"hydrodynamics",

@@ -5,6 +5,7 @@
 #include "common/contact/bond_law.hpp"
 #include "common/hydro/model.hpp"
 #include "common/io/parameters.hpp"
+#include "common/io/service_load.hpp"
 
 namespace crumble {
 
@@ -26,7 +27,11 @@ ContactChoice contact_in(const Scene& scene);
 Parameter checkpoint_interval_parameter();
 
 // [fluid]: the liquid in the droplet, or around the agglomerate.
+inline constexpr double water_density = 997;  // at 25 C, kg/m^3
 Section fluid_section();
+// Of a liquid that loads granules: its density, too.
+Section loading_fluid_section();
+Liquid liquid_in(const Scene& scene);
 
 // [hydrodynamics]; `methods` and their meaning are the stage's, the rest belongs to pair lubrication.
 Section hydrodynamics_section(std::vector<std::string> methods, const char* by_default, const std::string& meaning);

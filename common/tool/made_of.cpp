@@ -23,6 +23,11 @@ MadeOf made_of(const Properties& typed, const Properties& parent) {
   take("material.poisson_ratio", "nu", "", m.material.poisson_ratio);
   take("material.surface_energy", "gamma_s", " J/m2", m.material.surface_energy);
   take("material.density", "density", " kg/m3", m.material.density);
+  const auto is_given = [&](const char* key) { return typed.contains(key) || parent.contains(key); };
+  if (is_given("material.youngs_modulus") && !is_given("material.surface_energy") &&
+      m.material.youngs_modulus != Material().youngs_modulus)
+    m.text +=
+        "\nwarning: the surface energy is the default, E is of another material; every strength is proportional to it";
   return m;
 }
 

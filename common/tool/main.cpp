@@ -17,6 +17,7 @@ struct Run {
   int operator()(const Answer& a) const { return out << a.text, 0; }
   int operator()(const CheckOptions& o) const { return check(o, out); }
   int operator()(const InfoOptions& o) const { return info(o, out); }
+  int operator()(const CompareOptions& o) const { return compare(o, out); }
   int operator()(const ImportFileOptions& o) const { return import_file(o, typed, out); }
   int operator()(const ExportOptions& o) const { return export_frames(o, out); }
   int operator()(const MorphologyOptions& o) const { return morphology(o, out); }

@@ -25,6 +25,8 @@ constexpr const char* overview =
     "      what is in the file, and where it comes from\n"
     "  agglomerate morphology granule.h5\n"
     "      diameter, crust, contacts and other numbers of its last frame\n"
+    "  agglomerate compare old.h5 new.h5\n"
+    "      what differs, and whether it is more than the errors\n"
     "  agglomerate import packing.csv --radius 10 -o packing.h5\n"
     "      an agglomerate from sphere centres in nm\n"
     "  agglomerate export granule.h5 -o granule.xyz\n"
@@ -34,7 +36,8 @@ constexpr const char* overview =
     "  agglomerate VERB --help\n"
     "      more about one verb\n"
     "\n"
-    "Exit codes: 0 done; 1 failed (check: a file is not valid); 2 the command line is wrong or a file cannot be\n"
+    "Exit codes: 0 done; 1 failed (check: a file is not valid; compare: a result differs); 2 the command line is wrong "
+    "or a file cannot be\n"
     "opened; 3 a file is not what its format says. Answers go to stdout, messages to stderr.";
 
 InputError misuse(const std::string& verb, const std::string& wrong) {
@@ -124,6 +127,13 @@ void declare(CLI::App& app, Raw& raw) {
   Verb(app, "info", "what is in a file, and where it comes from", "Example:\n  agglomerate info granule.h5 --json")
       .files(raw, "FILE.h5", "an agglomerate file")
       .flag(raw.json, "--json", "for programs");
+  Verb(
+      app, "compare", "what differs between two files: scene, provenance, results beyond their errors",
+      "Example:\n  agglomerate compare seed-1.h5 seed-2.h5\n"
+      "A result differs if it does by more than the errors that both files state together; one without a stated error\n"
+      "differs if it is not the same number. Last frames are compared.\n"
+      "Exit codes: 0 no result differs, 1 one does, 2 a file cannot be opened, 3 it is not what its format says.")
+      .files(raw, "FILE.h5", "two agglomerate files");
   Verb(app, "import", "make an agglomerate from sphere centres",
        "Examples:\n"
        "  agglomerate import packing.csv --radius 10 -o packing.h5\n"
@@ -187,6 +197,10 @@ Options interpret(const std::string& verb, const Raw& raw) {
   const Format format = raw.json ? Format::json : raw.csv ? Format::csv : raw.cdf ? Format::cdf : Format::table;
   if (verb == "check") return CheckOptions{raw.files};
   if (verb == "schema") return SchemaOptions{};
+  if (verb == "compare") {
+    if (raw.files.size() != 2) throw misuse(verb, fmt::format("two files are wanted, {} given", raw.files.size()));
+    return CompareOptions{raw.files[0], raw.files[1]};
+  }
   if (raw.files.size() > 1) {
     throw misuse(verb,
                  fmt::format("one file is wanted, {} are given, the second is '{}'", raw.files.size(), raw.files[1]));
@@ -249,11 +263,13 @@ Options parse_options(int argc, const char* const* argv) {
   }
   if (version) return Answer{version_text("agglomerate")};
   if (app.get_subcommands().empty()) {
-    const std::vector<std::string> verbs{"check", "info", "import", "export", "morphology", "scale", "schema"};
+    const std::vector<std::string> verbs{"check",  "info",       "compare", "import",
+                                         "export", "morphology", "scale",   "schema"};
     const std::string word = app.remaining().empty() ? "" : app.remaining().front();
     const auto guess = nearest(word, verbs);
-    throw misuse("", word.empty() ? "a verb is missing: check, info, import, export, morphology, scale or schema"
-                                  : "unknown verb '" + word + "'" + (guess ? "; did you mean '" + *guess + "'?" : ""));
+    throw misuse("", word.empty()
+                         ? "a verb is missing: check, info, compare, import, export, morphology, scale or schema"
+                         : "unknown verb '" + word + "'" + (guess ? "; did you mean '" + *guess + "'?" : ""));
   }
   const CLI::App& chosen = *app.get_subcommands().front();
   verb = chosen.get_name();

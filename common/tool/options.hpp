@@ -26,6 +26,9 @@ struct Answer {  // --help, --version
 struct CheckOptions {
   std::vector<std::string> files;
 };
+struct CompareOptions {
+  std::string first, second;
+};
 struct InfoOptions {
   std::string file;
   Format format = Format::table;
@@ -51,8 +54,8 @@ struct ScaleOptions {
 };
 struct SchemaOptions {};
 
-using Options = std::variant<Answer, CheckOptions, InfoOptions, ImportFileOptions, ExportOptions, MorphologyOptions,
-                             ScaleOptions, SchemaOptions>;
+using Options = std::variant<Answer, CheckOptions, CompareOptions, InfoOptions, ImportFileOptions, ExportOptions,
+                             MorphologyOptions, ScaleOptions, SchemaOptions>;
 
 // Throws InputError on everything that cannot be meant.
 Options parse_options(int argc, const char* const* argv);

@@ -13,6 +13,8 @@ namespace crumble::tool {
 using Typed = std::vector<std::string>;
 
 int check(const CheckOptions& options, std::ostream& out);
+// 0: no result differs by more than the errors that the files state; 1: one does.
+int compare(const CompareOptions& options, std::ostream& out);
 int info(const InfoOptions& options, std::ostream& out);
 int import_file(const ImportFileOptions& options, const Typed& typed, std::ostream& out);
 int export_frames(const ExportOptions& options, std::ostream& out);

@@ -30,7 +30,7 @@ def dry(dryer, scene, folder, number, threads):
     radius = RADIUS_OF_100000 * (number / 1e5) ** (1 / 3)
     if not os.path.exists(name + ".json") or os.path.getmtime(name + ".json") < os.path.getmtime(dryer):
         subprocess.run(
-            [dryer, scene, "-o", name + ".h5", "--report", name + ".json", "--threads", str(threads), "--set",
+            [dryer, scene, "-o", name + ".h5", "--overwrite", "--report", name + ".json", "--threads", str(threads), "--set",
              f"particle.number={number}", "--set", f"droplet.radius={radius:.5g}"],
             check=True, stdout=subprocess.DEVNULL)
     with open(name + ".json") as file:

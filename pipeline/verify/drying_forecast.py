@@ -69,7 +69,7 @@ def forecast(text):
 
 def measure(dryer, scene, settings, folder):
     report = pathlib.Path(folder) / "run.json"
-    command = [dryer, scene, "-o", str(pathlib.Path(folder) / "run.h5"), "--report", str(report), "--threads", "1"]
+    command = [dryer, scene, "-o", str(pathlib.Path(folder) / "run.h5"), "--overwrite", "--report", str(report), "--threads", "1"]
     for setting in ["error.estimate=false", "output.frames=0", *settings]:
         command += ["--set", setting]
     run = subprocess.run(command, capture_output=True, text=True)

@@ -54,7 +54,7 @@ def main():
                     if rate > 1:
                         settings[0] = f'protocol.stage=[{{kind="ramp", rate={PAPER * rate}}}]'
                     report = folder / "report.json"
-                    subprocess.run([breaker, str(SCENE), str(start), "-o", str(folder / "out.h5"), "--report",
+                    subprocess.run([breaker, str(SCENE), str(start), "-o", str(folder / "out.h5"), "--overwrite", "--report",
                                     str(report), "--quiet", *[a for s in settings for a in ("--set", s)]],
                                    check=True, capture_output=True)
                     found = json.loads(report.read_text())

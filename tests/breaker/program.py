@@ -46,7 +46,7 @@ class Program(unittest.TestCase):
 
     def breakup_of(self, scene, agglomerate, *settings, output="breakup.h5"):
         report = self.folder / "breakup.json"
-        run = self.run_it(scene, *self.command(agglomerate, *settings, output=output)[1:], "--report", report)
+        run = self.run_it(scene, *self.command(agglomerate, *settings, output=output)[1:], "--report", report, "--overwrite")
         self.assertEqual(run.returncode, 0, run.stderr)
         out = self.folder / output
         check = subprocess.run([AGGLOMERATE, "check", str(out)], capture_output=True, text=True)
@@ -89,6 +89,20 @@ class Program(unittest.TestCase):
         self.assertIn('hydrodynamics.method = "fts"', said)
         run = self.run_it(*self.command(out, 'hydrodynamics.method="fts"', output="far.h5"), "--check")
         self.assertEqual(run.returncode, 0, run.stderr)
+
+    def test_does_it_hold_there(self):
+        start = self.agglomerate(DOUBLET)
+        report = self.folder / "at.json"
+        run = self.run_it(*self.command(start, "error.estimate=false"), "--report", report, "--at", "5000 1/s")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        found = json.loads(report.read_text())["results"]
+        # breakup.toml has 1 Pa s.
+        self.assertAlmostEqual(found["critical_shear_rate_per_s"], found["critical_stress_pa"])
+        self.assertAlmostEqual(found["at"]["share_of_strength"], 5000 / found["critical_stress_pa"])
+        self.assertEqual(found["at"]["verdict"], "holds")
+        self.assertIsNone(found["at"]["error_numerical_relative"])
+        self.assertIn("5000 1/s = 5e+03 Pa: holds, at ", run.stdout)
+        self.assertIn("stagnation flow", run.stdout)
 
     def test_a_run_that_cannot_go_on_says_where_and_keeps_its_state(self):
         run = self.run_it(*self.command(self.agglomerate(DOUBLET), "material.youngs_modulus=1e120", "error.estimate=false"))
@@ -277,7 +291,7 @@ class Program(unittest.TestCase):
             reports = []
             for strain in ("500", "10000"):
                 out, report = self.folder / f"{strain}.h5", self.folder / "own.json"
-                run = self.run_it("/dev/null", granule, "-o", out, "--report", report, "--set", "error.estimate=false",
+                run = self.run_it("/dev/null", granule, "-o", out, "--report", report, "--overwrite", "--set", "error.estimate=false",
                                   *([] if strain == "500" else ["--set", f"protocol.strain={strain}"]))
                 self.assertEqual(run.returncode, 0, run.stderr)
                 reports.append(json.loads(report.read_text()))

@@ -1,6 +1,7 @@
 """Every table of data/ can be read, says its source and its units, and is listed; the paper's row is the one we dry."""
 
 import csv
+import math
 import pathlib
 import sys
 import tomllib
@@ -11,8 +12,8 @@ DATA = ROOT / "data"
 sys.path.insert(0, str(ROOT / "pipeline/report"))
 import published  # what the programs print beside our numbers
 
-TEXT = {"quantity", "symbol", "unit", "code", "choice", "cluster", "case", "function", "lubrication"}
-UNITS = ("_nm", "_um", "_ms", "_s", "_N", "_pN", "_J", "_kT", "_kT_300K", "_percent", "_N_per_m", "_N_m", "_m2_per_s")
+TEXT = {"material", "quantity", "symbol", "unit", "code", "choice", "cluster", "case", "function", "lubrication"}
+UNITS = ("_nm", "_um", "_ms", "_s", "_N", "_pN", "_J", "_kT", "_kT_300K", "_percent", "_N_per_m", "_N_m", "_m2_per_s", "_J_per_m2")
 DIMENSIONLESS = {"monomers", "starts", "peclet", "h_c_over_d_c", "h_c_over_d_c_spread", "coordination", "contacts",
                  "contacts_spread", "rolling_limit", "counted_gap_over_a", "gap_over_a", "inverse", "logarithm",
                  "constant", "x_logarithm", "value", "error",
@@ -96,6 +97,21 @@ class Paper(unittest.TestCase):
         for granule, row in zip(published.GRANULES.values(), self.rows):
             if "contacts" in granule:
                 self.assertAlmostEqual(granule["coordination"], 2 * granule["contacts"] / int(row["monomers"]), delta=0.025)
+
+
+class SurfaceEnergy(unittest.TestCase):
+    def test_the_page_says_what_follows_from_the_hamaker_constants(self):
+        page = (ROOT / "common/contact/SURFACE_ENERGY.md").read_text(encoding="utf-8")
+        _, heading, rows = read(DATA / "surface_energy.csv")
+        for row in rows:
+            cell = dict(zip(heading, row))
+            for place in ("dry", "water"):
+                hamaker, energy = float(cell[f"hamaker_{place}_J"]), float(cell[f"surface_energy_{place}_J_per_m2"])
+                computed = hamaker / (24 * math.pi * 0.165e-9**2)
+                self.assertAlmostEqual(energy / computed, 1, delta=0.03)  # two digits
+            line = next(line for line in page.splitlines() if line.lower().startswith(f"| {cell['material'].lower()} |"))
+            self.assertEqual([column.strip() for column in line.split("|")[2:4]],
+                             [cell["surface_energy_dry_J_per_m2"], cell["surface_energy_water_J_per_m2"]])
 
 
 if __name__ == "__main__":

@@ -218,6 +218,25 @@ class Program(unittest.TestCase):
                     self.assertIn(": expected ", ran.stderr)
                     self.assertEqual(self.left(), [])
 
+    def test_a_result_of_another_scene_is_replaced_only_where_told_to(self):
+        changes = {"dryer": "droplet.lifetime=2e-4", "breaker": "breakup.reach=0.9", "rigidstress": "flow.starts=3"}
+        for name, command, output in self.each():
+            if name not in changes:
+                continue
+            with self.subTest(name=name):
+                self.ends(self.run_it(*command), 0)
+                self.ends(self.run_it(*command), 0)  # the same scene again
+                before = output.read_bytes()
+                other = [*command, "--set", changes[name]]
+                refused = self.run_it(*other)
+                self.ends(refused, 2)
+                self.assertIn(f"another scene ({changes[name].partition('=')[0]} = ", refused.stderr)
+                self.assertIn("--overwrite", refused.stderr)
+                self.assertEqual(output.read_bytes(), before)
+                self.assertEqual(self.left(), [output.name])
+                self.ends(self.run_it(*other, "--overwrite"), 0)
+                self.assertNotEqual(output.read_bytes(), before)
+
     def test_two_runs_at_once_leave_the_result_of_one(self):
         scene = "[particle]\nradius = 10e-9\nnumber = 40\n[droplet]\nradius = 172e-9\nlifetime = 2.1e-2\n"
         (self.folder / "long.toml").write_text(scene)

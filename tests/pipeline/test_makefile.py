@@ -121,7 +121,7 @@ class Stages(Sandbox):
         done = self.make("dry", f"SCENE={self.SCENE}", "SEED=7")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(self.called("dryer"), [f"dryer {self.SCENE} -o pipeline/results/hollow-7.h5 "
-                                                "--report pipeline/results/hollow-7.json --seed 7"])
+                                                "--report pipeline/results/hollow-7.json --overwrite --seed 7"])
         self.assertTrue((self.root / "pipeline/results/hollow-7.h5").exists())
 
     def test_dry_takes_names_with_blanks_and_its_own_folder(self):
@@ -176,7 +176,7 @@ class Stages(Sandbox):
         out = "pipeline/results/my granule-stress"
         self.assertEqual(self.called("rigidstress"),
                          [f"rigidstress pipeline/scenes/stress.toml my granule.h5 -o {out}.h5 "
-                          f"--report {out}.json --threads 1"])
+                          f"--report {out}.json --overwrite --threads 1"])
         self.forget()
         done = self.make("stress", "AGGLOMERATE=my granule.h5", "SCENE=pipeline/scenes/stress-shear.toml", "OUT=a.h5")
         self.assertIn("stress-shear.toml my granule.h5 -o a.h5", self.called("rigidstress")[0])
@@ -190,7 +190,7 @@ class Stages(Sandbox):
         self.assertEqual(done.returncode, 0, done.stderr)
         out = "pipeline/results/my granule-break"
         self.assertEqual(self.called("breaker"), [f"breaker pipeline/scenes/break.toml my granule.h5 -o {out}.h5 "
-                                                  f"--report {out}.json --threads 1"])
+                                                  f"--report {out}.json --overwrite --threads 1"])
         self.assertIn(f"rigidstress {out}-rigid.toml my granule.h5 -o {out}-rigid.h5", self.called("rigidstress")[0])
         self.assertIn(f"pipeline/report/rigid_scene.py {out}.h5", (self.root / f"{out}-rigid.toml").read_text())
         for script in ("breakup", "breakup_pictures"):

@@ -51,7 +51,7 @@ class Program(unittest.TestCase):
 
     def stress(self, agglomerate, *settings, scene=SCENE, output="stress.h5"):
         out, report = self.folder / output, self.folder / "stress.json"
-        run = self.run_it(scene, agglomerate, "-o", out, "--report", report, *[a for s in settings for a in ("--set", s)])
+        run = self.run_it(scene, agglomerate, "-o", out, "--report", report, "--overwrite", *[a for s in settings for a in ("--set", s)])
         self.assertEqual(run.returncode, 0, run.stderr)
         return json.loads(report.read_text()), run, out
 
@@ -130,6 +130,50 @@ class Program(unittest.TestCase):
             self.assertAlmostEqual(typed["results"]["elongation"][key] / report["results"]["elongation"][key], 1, delta=1e-9)
         # What F_po/(6 pi a^2) of this material makes a hundred times that of the paper's spheres of 100 nm.
         self.assertGreater(report["results"]["elongation"]["critical_stress_worst_pa"], 1e5)
+
+    def test_every_critical_stress_has_its_shear_rate_in_this_liquid(self):
+        report, run, _ = self.stress(self.silica(), "fluid.viscosity=0.02", "flow.uniaxial=true", scene="/dev/null")
+        pairs = 0
+        for group in report["results"].values():
+            for name, stress in group.items() if isinstance(group, dict) else ():
+                if name.startswith("critical_stress"):
+                    rate = group[name.replace("stress", "shear_rate").replace("_pa", "_per_s")]
+                    self.assertAlmostEqual(stress / rate / 0.02, 1, delta=1e-12)
+                    pairs += 1
+        self.assertEqual(pairs, 6)  # settled and worst in two flows, mean and largest in shear
+        for device in ("stirred tank", "extensional nozzle", "turbulence"):
+            self.assertIn(device, run.stdout)
+
+    def test_does_it_hold_there(self):
+        granule = self.silica()
+        first, _, _ = self.stress(granule, scene="/dev/null")
+        weakest = first["results"]["elongation"]["critical_stress_worst_pa"]
+        out, report = self.folder / "at.h5", self.folder / "at.json"
+        for load, verdict, share in (("100 Pa", "holds", 100 / weakest), (f"{2 * weakest} Pa", "breaks", 2),
+                                     (f"{0.5 * weakest / 1e-3} 1/s", "holds", 0.5), ("10 W/kg", "holds", (10 * 1e-3 * 997)**0.5 / weakest)):
+            run = self.run_it("/dev/null", granule, "-o", out, "--report", report, "--at", load)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            at = json.loads(report.read_text())["results"]["at"]
+            self.assertEqual(at["verdict"], verdict)
+            self.assertAlmostEqual(at["share_of_strength"] / share, 1, delta=1e-9)
+            self.assertAlmostEqual(at["surface_energy_to_break_j_per_m2"] / (0.05 * share), 1, delta=1e-9)
+            self.assertEqual(at["error_numerical_relative"], first["errors"]["n_max_relative"]["value"])
+            self.assertIsNone(at["error_sampling_relative"])
+            self.assertIn(at["sentence"], run.stdout)
+        run = self.run_it("/dev/null", granule, "-o", out, "--at", "100")
+        self.assertEqual(run.returncode, 2)
+        self.assertIn("number > 0 with its unit", run.stderr)
+
+    def test_the_default_surface_energy_of_another_material_is_told(self):
+        granule = self.agglomerate([[0, 0, 0], [200, 0, 0]])
+        _, run, _ = self.stress(granule, "hydrodynamics.method=fts")
+        self.assertNotIn("warning", run.stderr)
+        with h5py.File(granule, "a") as file:
+            del file["material"], file["parameters/resolved"]
+        report, run, _ = self.stress(granule, "material.youngs_modulus=7e10", "hydrodynamics.method=fts", scene="/dev/null",
+                                     output="other.h5")
+        self.assertIn("warning: E = 7e+10 Pa (scene) is of another material than the surface energy", run.stderr)
+        self.assertIn("SURFACE_ENERGY.md", report["results"]["material_warning"])
 
     def test_the_scene_wins_and_both_values_are_said(self):
         report, run, _ = self.stress(self.silica())

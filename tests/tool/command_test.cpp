@@ -12,7 +12,7 @@ TEST(AgglomerateCommand, HelpTeachesWithExamplesAndEndsWithZero) {
   const Ran all = agglomerate(folder, "--help");
   EXPECT_EQ(all.code, 0);
   EXPECT_EQ(all.err, "");
-  for (const std::string verb : {"check", "info", "import", "export", "morphology", "scale", "schema"}) {
+  for (const std::string verb : {"check", "info", "compare", "import", "export", "morphology", "scale", "schema"}) {
     EXPECT_NE(all.out.find("\n  " + verb + " "), std::string::npos) << verb;
     const Ran one = agglomerate(folder, verb + " --help");
     EXPECT_EQ(one.code, 0);

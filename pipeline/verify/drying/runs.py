@@ -40,7 +40,7 @@ def arguments(doc, seeds, rows=None):
 def run(name, seed, settings, scene=SCENE):
     """Dries one droplet; what the report and the file say, the file's contacts counted at two gaps."""
     out = f"{RESULTS}/{name}-{seed}"
-    command = [DRYER, scene, "--seed", str(seed), "--threads", "1", "--quiet"]
+    command = [DRYER, scene, "--seed", str(seed), "--threads", "1", "--quiet", "--overwrite"]
     command += ["-o", f"{out}.h5", "--report", f"{out}.json"]
     for key, value in {**BARE, **settings}.items():
         command += ["--set", f"{key}={value}"]

@@ -1,0 +1,57 @@
+#include "breaker/expected_cost.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <exception>
+#include <vector>
+
+#include "breaker/run.hpp"
+#include "common/io/cost.hpp"
+#include "common/io/progress.hpp"
+
+namespace crumble::breaker {
+
+namespace {
+
+constexpr double budget = 0.2;  // s; a begun step is ended
+constexpr std::size_t most_samples = 40;
+constexpr double least_per_contact = 10, most_per_contact = 60;
+
+// Steps before the first contact yields are of a body that is rigid but for elastic contacts, and cheaper.
+double measured_step(const BreakerScene& scene, const Start& start) {
+  BreakupRun run(scene, start.agglomerate, 1);
+  std::vector<double> rigid, flexible;
+  const double begin = thread_seconds();
+  double before = begin;
+  while (!run.finished() && flexible.size() < most_samples) {
+    try {
+      run.step();
+    } catch (const std::exception&) {
+      break;  // the run itself will say so, and keep its state
+    }
+    const double now = thread_seconds();
+    (run.breakup().first_limit ? flexible : rigid).push_back(now - before);
+    before = now;
+    if (now - begin > budget && rigid.size() + flexible.size() > 2) break;
+  }
+  std::vector<double>& times = flexible.size() > 2 ? flexible : rigid;
+  if (times.empty()) return 0;
+  std::nth_element(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2), times.end());
+  return times[times.size() / 2];
+}
+
+}  // namespace
+
+ExpectedCost expected_cost(const BreakerScene& scene, const Start& start) {
+  const double contacts = static_cast<double>(start.agglomerate.state.contacts.size());
+  return {least_per_contact * contacts, most_per_contact * contacts, measured_step(scene, start)};
+}
+
+std::string expected_cost_text(const ExpectedCost& c) {
+  return fmt::format("expected: {:.2g} to {:.2g} steps of {:.2g} ms, {} for one run", c.least_steps, c.most_steps,
+                     1e3 * c.step_seconds,
+                     duration_range(c.least_steps * c.step_seconds, c.most_steps * c.step_seconds));
+}
+
+}  // namespace crumble::breaker
