@@ -111,9 +111,9 @@ TEST(Checkpoint, of_another_scene_version_or_program_is_refused_with_the_differe
   const Folder folder;
   const std::string file = folder.file("x.checkpoint");
   save_checkpoint(file, {"dryer", "0.1", "a = 1\nb = 2\n"}, {});
-  const auto message = [&](const CheckpointOwner& owner) {
+  const auto message = [&](const CheckpointOwner& by) {
     try {
-      load_checkpoint(file, owner);
+      load_checkpoint(file, by);
     } catch (const InputError& error) {
       return std::string(error.what());
     }
