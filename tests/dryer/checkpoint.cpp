@@ -122,7 +122,7 @@ TEST(Checkpoint, of_another_scene_version_or_program_is_refused_with_the_differe
   EXPECT_NE(message({"dryer", "0.1", "a = 1\nb = 3\n"}).find("'b = 2' then, 'b = 3' now"), std::string::npos);
   EXPECT_NE(message({"dryer", "0.2", "a = 1\nb = 2\n"}).find("version 0.1, this is 0.2"), std::string::npos);
   EXPECT_NE(message({"breaker", "0.1", "a = 1\nb = 2\n"}).find("of dryer, not of breaker"), std::string::npos);
-  std::ofstream(file) << "not HDF5";
+  std::ofstream(file) << "not a checkpoint";
   EXPECT_ANY_THROW(load_checkpoint(file, {"dryer", "0.1", ""}));
 }
 

@@ -115,7 +115,8 @@ TEST(Checkpoint, IsThatOfTheSceneWhateverItsInterval) {
   const auto with = [&](const std::string& interval) {
     return CheckpointOwner{"dryer", "0.1.0", "[output]\nframes = 5\ncheckpoint_interval = " + interval + "\n[run]\n"};
   };
-  OutputCheckpoint(output, with("60")).write({});
+  const OutputCheckpoint first(output, with("60"));
+  first.write(first.collect([](SavedFields&) {}));
   EXPECT_TRUE(OutputCheckpoint(output, with("10")).found());
   EXPECT_THROW(OutputCheckpoint(output, owner), InputError);
 }

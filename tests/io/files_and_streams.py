@@ -244,7 +244,7 @@ class Program(unittest.TestCase):
         first = subprocess.Popen(command, cwd=self.folder, stderr=subprocess.PIPE, text=True)
         self.addCleanup(first.stderr.close)
         self.addCleanup(first.kill)
-        while not (self.folder / "o.h5.tmp").exists():
+        while not (self.folder / "o.h5.frames").exists():
             self.assertIsNone(first.poll())
         for setting in ({}, {"HDF5_USE_FILE_LOCKING": "FALSE"}):
             second = self.run_it(*command[0:1], *command[1:], "--seed", 2, env=os.environ | setting)
