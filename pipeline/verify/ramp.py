@@ -1,20 +1,22 @@
-"""The ramp that follows from the granule, against one ten times as slow: granules of some 100 kPa and of some 10 Pa break without
-a key set by hand.
+"""The ramp that follows from the granule, against one ten times as slow: does either break without a key set by hand?
 
-    ramp.py [GRANULE.h5...] [--bin FOLDER] [-o FOLDER]      (prints the table of ramp.md; without granules it dries one of 60 particles)
+Prints the table of ramp.md; without granules it dries one of 60 particles.
+
+    ramp.py hollow.h5 -o ramps
 
 Each granule is loaded twice as two materials: 24 nm silica-like (E = 70 GPa, surface energy 0.05 J/m2) and 2 um of weak bonds (1 GPa,
 4.8e-4 J/m2). Reports that FOLDER has already are not made again.
 """
-import argparse
 import json
 import pathlib
 import re
 import subprocess
 import sys
-import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "pipeline" / "report"))
+import arguments  # noqa: E402
+
 MATERIALS = {"strong": ("24e-9", "7e10", "0.2", "0.05"), "weak": ("2e-6", "1e9", "0.4", "4.8e-4")}
 KEYS = ("particle.radius", "material.youngs_modulus", "material.poisson_ratio", "material.surface_energy")
 STRAINS = (500, 5000)  # the default, and the slow one
@@ -44,18 +46,21 @@ def dried(programs, folder):
     return granule
 
 
+def command_line():
+    parser = arguments.parser(__doc__, "folder of the runs", metavar="FOLDER")
+    parser.add_argument("granules", nargs="*", type=arguments.file, metavar="GRANULE.h5", help="granules to load")
+    parser.add_argument("--bin", type=pathlib.Path, default=ROOT / "build/release/bin", help="folder of the programs (default: %(default)s)")
+    return parser
+
+
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("granules", nargs="*", type=pathlib.Path)
-    parser.add_argument("--bin", type=pathlib.Path, default=ROOT / "build/release/bin")
-    parser.add_argument("-o", "--output", type=pathlib.Path, default=pathlib.Path(tempfile.gettempdir()) / "ramps")
-    given = parser.parse_args()
-    given.output.mkdir(parents=True, exist_ok=True)
+    given = command_line().parse_args()
+    given.out.mkdir(parents=True, exist_ok=True)
     print("| granule | material | particles | rigid, Pa | breaks at, Pa | ten times as slow, Pa | difference | contacts | steps | a contact | CPU s | forecast of the first |")
     print("|---|---|---|---|---|---|---|---|---|---|---|---|")
-    for granule in given.granules or [dried(given.bin, given.output)]:
+    for granule in given.granules or [dried(given.bin, given.out)]:
         for material in MATERIALS:
-            found = [broken(given.bin / "breaker", granule, material, strain, given.output) for strain in STRAINS]
+            found = [broken(given.bin / "breaker", granule, material, strain, given.out) for strain in STRAINS]
             runs, forecast = [run for run, _ in found], found[0][1]
             (one, slow), r = (run["results"]["critical_stress_pa"] for run in runs), runs[0]["results"]
             print(f"| {granule.stem} | {material} | {sum(r['fragments'])} | {r['rigid_prediction_pa']:.4g} | {one:.5g} | {slow:.5g} | "

@@ -1,18 +1,21 @@
 """What a droplet becomes over Peclet number and capillary force over pull-off force: the boundaries of dryer/regime.cpp.
 
-    regime_map.py [--dryer DRYER] [-o FOLDER]      (writes FOLDER/regime.csv, as stored beside this script; two minutes of CPU)
+Writes FOLDER/regime.csv, as it is stored beside this script, in two minutes of CPU.
+
+    regime_map.py -o regime-map
 
 115 particles of 10 nm in 215 nm as in the first row of Table 2 of Vasquez Giuliano et al. (2022); the force is changed by the
 surface tension, so that bonds stay what they are. Runs that FOLDER has already are not repeated.
 """
-import argparse
 import csv
 import json
 import pathlib
 import statistics
 import subprocess
 import sys
-import tempfile
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "report"))
+import arguments  # noqa: E402
 
 BIN = pathlib.Path(__file__).resolve().parents[2] / "build/release/bin"
 PECLET = ("inf", "3000", "1000", "300", "100", "30")
@@ -51,18 +54,21 @@ def row(peclet, tension, reports):
             f"{mean('fragments'):.1f}", f"{statistics.fmean(report['cpu_s'] for report in reports):.2g}")
 
 
+def command_line():
+    parser = arguments.parser(__doc__, "folder of the runs and the table", metavar="FOLDER")
+    parser.add_argument("--dryer", type=pathlib.Path, default=BIN / "dryer", help="the program (default: %(default)s)")
+    return parser
+
+
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--dryer", type=pathlib.Path, default=BIN / "dryer")
-    parser.add_argument("-o", "--output", type=pathlib.Path, default=pathlib.Path(tempfile.gettempdir()) / "regime-map")
-    given = parser.parse_args()
-    given.output.mkdir(parents=True, exist_ok=True)
-    with open(given.output / "regime.csv", "w", newline="") as file:
+    given = command_line().parse_args()
+    given.out.mkdir(parents=True, exist_ok=True)
+    with open(given.out / "regime.csv", "w", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(COLUMNS)
         for peclet in PECLET:
             for tension in TENSION:
-                writer.writerow(row(peclet, tension, [dry(given.dryer, given.output, peclet, tension, seed) for seed in SEEDS.get(peclet, (1, 2, 3))]))
+                writer.writerow(row(peclet, tension, [dry(given.dryer, given.out, peclet, tension, seed) for seed in SEEDS.get(peclet, (1, 2, 3))]))
                 file.flush()
 
 

@@ -111,7 +111,9 @@ class Program(unittest.TestCase):
             ran = self.run_it(*command)
             self.ends(ran, 0)
             self.assertTrue(output.is_symlink())
-            self.assertTrue((self.folder / "there" / output.name).is_file())
+            made = self.folder / "there" / output.name
+            self.assertTrue(made.is_file())
+            made.unlink()
 
     def test_devices_are_written_to_or_refused(self):
         for name, command, output in self.each():
