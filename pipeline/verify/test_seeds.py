@@ -57,8 +57,12 @@ def run(program, chosen, number):
 
 def room(values, low, high):
     """Of one value a set, bounds those of each: they may come from the sample itself."""
-    spread = statistics.stdev(values)
-    gap = min(statistics.fmean(high) - statistics.fmean(values), statistics.fmean(values) - statistics.fmean(low))
+    spread, mean = statistics.stdev(values), statistics.fmean(values)
+    # What a value cannot pass is no bound: zero of what is never negative, and what values reach without passing it (all
+    # particles in one piece).
+    below = statistics.fmean(low) if not (set(low) == {0} and min(values) >= 0 or min(values) == min(low)) else -math.inf
+    above = statistics.fmean(high) if max(values) != max(high) else math.inf
+    gap = min(above - mean, mean - below)
     return gap / spread if spread > 0 else math.inf
 
 

@@ -426,8 +426,9 @@ INSTANTIATE_TEST_SUITE_P(Softening, BondedFraction, ::testing::Values(1.0, 2.0, 
 // The drag on what is dry only lets it come to rest. Paths part, so means over seeds are compared: of 16 granules like
 // those of CI a tenth of the drag changed d_c by -0.2 % (2.3 % between pairs of the same seed) and the contacts by +1.5
 // % (5.1 %), ten times the drag by -0.1 % (1.3 %) and -4.5 % (3.4 %), less so in contacts that are softened less.
-// Bounds are 4.5 standard errors beyond these, 7e-6 by chance each. (At Pe = 300 ten times the drag leaves 13 % fewer
-// contacts: see the manual.)
+// Of 20 sets of six seeds, as in CI: +0.4 +- 1.3 %, +3.0 +- 2.6 %, 0.0 +- 0.4 % and -4.4 +- 1.2 %. Bounds are 4.5
+// standard deviations beyond these, 7e-6 by chance each. (At Pe = 300 ten times the drag leaves 13 % fewer contacts:
+// see the manual.)
 TEST(Brownian, the_drag_that_dry_particles_keep_hardly_changes_the_granule) {
   const int seeds = long_version() ? 40 : 6;
   struct Granule {
@@ -454,11 +455,11 @@ TEST(Brownian, the_drag_that_dry_particles_keep_hardly_changes_the_granule) {
   const Granule usual = mean_granule(1);
   for (const double factor : {0.1, 10.0}) {
     const Granule other = mean_granule(factor);
-    expect_near(fmt::format("d_c at drag factor {}", factor), other.diameter / usual.diameter, 1, 0.05);
+    expect_near(fmt::format("d_c at drag factor {}", factor), other.diameter / usual.diameter, 1, 0.07);
     expect_near(fmt::format("contacts at drag factor {}", factor), other.contacts / usual.contacts, 1,
-                long_version() ? 0.06 : 0.11);
+                long_version() ? 0.06 : 0.15);
   }
-  // A granule in 36 lost a particle (4 of 144): of 18 more than five by chance 1e-5, of 120 more than 14 1e-6.
+  // A granule in 33 lost a particle (11 of 360): of 18 more than five by chance 2e-5, of 120 more than 14 4e-6.
   expect_within("pieces beside the granules", loose, 0, long_version() ? 14 : 5);
 }
 

@@ -110,7 +110,8 @@ HardCase shell(double droplet_radius) {
 HardCase of_ten_radii() {
   std::vector<double> radius(4, a);
   radius.resize(16, 0.1 * a);
-  return {shrinking(60e-9), random_suspension(radius, 1300, 60e-9, seeded(5)), 0.07};  // of 10 starts 0.027 +- 0.007
+  // Of 20 starts 0.028 +- 0.008, stabilised 0.046 +- 0.013.
+  return {shrinking(60e-9), random_suspension(radius, 1300, 60e-9, seeded(5)), 0.12};
 }
 
 HardCase drops(int number, double lifetime, double thermal_energy) {

@@ -76,7 +76,8 @@ TEST(Stabilised, dries_the_same_granule_as_the_implicit_integrator) {
                                    const ImplicitControl& c) { return std::make_unique<Implicit>(m, s, c); },
                                 seed, ImplicitControl{0.01});
     const double d_c = other.morphology.extent.diameter();
-    expect_near("d_c", one.morphology.extent.diameter() / d_c, 1, 0.005);
+    // Of 60 starts 0.11 % (standard deviation); one contact that the other misses is 0.8 % (once).
+    expect_near("d_c", one.morphology.extent.diameter() / d_c, 1, 0.02);
     expect_near("contacts", one.contacts - other.contacts, 0, 2);  // of 30 starts two by one
     expect_near("fragments", one.morphology.fragments - other.morphology.fragments, 0, 0);
   }
@@ -139,7 +140,7 @@ TEST(Stabilised, bonds_are_a_sorted_list_of_pairs_after_every_step_however_many_
       }
     }
   }
-  expect_within("contacts lost", run.statistics().contacts_lost, 300, unbounded);
+  expect_within("contacts lost", run.statistics().contacts_lost, 200, unbounded);  // of 20 starts 363 +- 33
 }
 
 TEST(Stabilised, a_droplet_of_loose_particles_that_the_front_has_not_reached_stands_still) {
