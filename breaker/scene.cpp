@@ -62,6 +62,7 @@ Protocol protocol_in(const Scene& scene, double stretch) {
 }  // namespace
 
 const ParameterTable& breaker_parameters() {
+  static const BreakerScene usual;
   static const ParameterTable table{
       particle(),
       material_section(),
@@ -81,7 +82,7 @@ const ParameterTable& breaker_parameters() {
        "ramp from rest that follows from the strength of the agglomerate taken as rigid.",
        {P::real("strain", "", "Of that ramp, up to the stress at which the rigid agglomerate would break")
             .above(0)
-            .by_default(500),
+            .by_default(usual.ramp_strain),
         P::flag("scale_with_viscosity",
                 "Take the stages as those for 1 Pa s: multiply times by mu/(1 Pa s) and divide rates, which gives "
                 "the same states at the same stresses for every viscosity")
@@ -107,7 +108,7 @@ const ParameterTable& breaker_parameters() {
        {P::real("reach", "", "A fragment is lost when its surface is farther than this from the rest, in a")
             .above(0.01)
             .at_most(10)
-            .by_default(1),
+            .by_default(usual.reach),
         P::integer("lost_particles",
                    "How many particles must be lost, in one fragment or crumb by crumb, for it to be broken; without "
                    "it a twentieth of all, rounded up")
@@ -116,12 +117,12 @@ const ParameterTable& breaker_parameters() {
         P::flag("until_stable", "After breakup hold the stress until no fragment breaks any more").by_default(false),
         P::real("stable_strain", "", "until_stable: strain without a rupture that counts as stable")
             .above(0)
-            .by_default(20),
+            .by_default(usual.stable_strain),
         P::real(
             "brittle_below", "",
             "Relative change of the largest semi-axis, 1 % of stress before breakup, below which it is called brittle")
             .above(0)
-            .by_default(0.1)}},
+            .by_default(usual.brittle_below)}},
       {"integrator",
        "How the equations are solved.",
        {P::choice("method", {"implicit", "explicit"},
@@ -130,19 +131,22 @@ const ParameterTable& breaker_parameters() {
         P::real("tolerance", "", "implicit: of the range of a bond; breaker/MODEL.md says what it controls")
             .above(1e-6)
             .at_most(0.1)
-            .by_default(0.01),
+            .by_default(usual.tolerance),
         P::real("step", "s", "explicit: the fixed step; without it half of the stability limit").above(0).optional(),
         P::flag("allow_unstable", "explicit: take a step beyond the stability limit all the same").by_default(false)}},
       {"error",
        "How the run judges itself.",
        {P::flag("estimate", "Also run with doubled tolerance (or, explicit, half the step) and report the difference")
-            .by_default(true),
+            .by_default(usual.estimate_error),
         P::real("accuracy", "",
                 "implicit: wanted relative error of the critical stress; while the difference is larger the tolerance "
                 "is halved and the breakup run again")
             .above(0)
-            .by_default(0.01),
-        P::integer("halvings", "How often at most").at_least(0).at_most(10).by_default(2)}},
+            .by_default(usual.accuracy),
+        P::integer("halvings", "How often at most")
+            .at_least(0)
+            .at_most(10)
+            .by_default(static_cast<double>(usual.halvings))}},
       {"output",
        "What the file holds.",
        {P::real("sample_interval", "Pa",

@@ -6,6 +6,9 @@
 
 namespace crumble::dryer {
 
+// Largest displacement in a step, in the radius, unless the scene says another.
+inline constexpr double usual_displacement = 0.02;
+
 // How much farther than the step's largest displacement the few may go that snap into a new place: fewer than one
 // particle in a thousand. They must not slow down a large droplet: their number grows with that of the particles.
 inline constexpr double snap = 5;

@@ -4,14 +4,15 @@
 
 #include <limits>
 
+#include "dryer/displacement.hpp"
 #include "dryer/implicit_step.hpp"
 #include "dryer/integrator.hpp"
 
 namespace crumble::dryer {
 
 struct ImplicitControl {
-  double largest_displacement = 0.01;  // of any particle in one step, in its radius
-  double contact_precision = 1e-4;     // overlap that no bond holds at the end of a step, in the radius
+  double largest_displacement = usual_displacement;  // of any particle in one step, in its radius
+  double contact_precision = 1e-4;                   // overlap that no bond holds at the end of a step, in the radius
 };
 
 // Steps through the drying with ImplicitStep. Whatever overlaps at the end of a step by more than contact_precision is

@@ -145,18 +145,18 @@ const ParameterTable& drying_parameters() {
         P::real("largest_displacement", "", "implicit and stabilised: largest motion of a particle in one step, in a")
             .above(0)
             .at_most(0.2)
-            .by_default(0.02),
+            .by_default(usual_displacement),
         P::real("contact_precision", "",
                 "implicit: overlap beyond which a pair is bonded within the step in which it touches, in a")
             .above(0)
             .at_most(1e-2)
-            .by_default(1e-4),
+            .by_default(ImplicitControl{}.contact_precision),
         P::real("contact_step", "",
                 "overdamped with Brownian motion: the short step of particles in touch, in the relaxation time "
                 "6 pi mu a/k_n of a contact")
             .above(0)
             .at_most(0.15)
-            .by_default(0.15),
+            .by_default(BrownianControl{}.contact_step),
         P::real(
             "softening", "",
             "overdamped with Brownian motion: width of the bond in the packed liquid core in that of the material's; "

@@ -4,13 +4,14 @@
 #include "common/numerics/neighbours.hpp"
 #include "dryer/bond_block.hpp"
 #include "dryer/chebyshev.hpp"
+#include "dryer/displacement.hpp"
 #include "dryer/integrator.hpp"
 #include "dryer/relaxation_rate.hpp"
 
 namespace crumble::dryer {
 
 struct StabilisedControl {
-  double largest_displacement = 0.02;  // of a particle in one stabilised step, in its radius
+  double largest_displacement = usual_displacement;  // of a particle in one stabilised step, in its radius
   // How near pairs must be to be looked at within a step(), in the smallest radius.
   double near() const { return std::max(0.2, 3 * largest_displacement); }
 };
