@@ -146,7 +146,7 @@ const ParameterTable& breaker_parameters() {
         P::integer("halvings", "How often at most")
             .at_least(0)
             .at_most(10)
-            .by_default(static_cast<double>(usual.halvings))}},
+            .by_default(static_cast<int>(usual.halvings))}},
       {"output",
        "What the file holds.",
        {P::real("sample_interval", "Pa",
