@@ -21,9 +21,9 @@ std::string source_of(const Scene& scene, const std::string& key) {
 
 namespace {
 
-// The number, or the word that stands for it.
-std::string shown(const Scene& scene, const std::string& key) {
-  return scene.word(key) ? *scene.word(key) : fmt::format("{:g}", scene.real(key));
+// The number with its unit, or the word that stands for it.
+std::string shown(const Scene& scene, const std::string& key, const char* unit) {
+  return scene.word(key) ? *scene.word(key) : fmt::format("{:g}{}", scene.real(key), unit);
 }
 
 std::optional<double> in_file(const std::optional<Parent>& parent, const std::string& key) {
@@ -39,7 +39,7 @@ bool differs(const Scene& scene, const std::string& key, const std::optional<dou
 std::string with_source(const Scene& scene, const std::optional<Parent>& parent, const std::string& key,
                         const char* name, const char* unit) {
   const auto other = in_file(parent, key);
-  return fmt::format("{} {}{} ({}{})", name, shown(scene, key), unit, source_of(scene, key),
+  return fmt::format("{} {} ({}{})", name, shown(scene, key, unit), source_of(scene, key),
                      differs(scene, key, other) ? fmt::format("; the file says {:g}", *other) : "");
 }
 
