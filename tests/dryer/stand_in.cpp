@@ -87,8 +87,8 @@ TEST(StandIn, a_time_gives_as_many_particles_as_dry_in_it) {
   const auto number_in = [&](const char* time) {
     return Scene::parse(stand_in(large, fit_to(time), this_machine()), "s.toml", drying_parameters());
   };
-  const double few = particle_number(number_in("5 min")), many = particle_number(number_in("5 h"));
-  EXPECT_GT(many, 3 * few);  // the clock is this machine's; time grows like N^1.5 or so
+  const double of_minutes = particle_number(number_in("5 min")), of_hours = particle_number(number_in("5 h"));
+  EXPECT_GT(of_hours, 3 * of_minutes);  // the clock is this machine's; time grows like N^1.5 or so
 }
 
 TEST(StandIn, what_cannot_be_meant_is_refused) {
