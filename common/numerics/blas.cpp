@@ -21,6 +21,12 @@ constexpr int eigen_bytes = 0;
 // OpenBLAS's names of its kernels on x86-64 that fill 32 bytes with fused multiply-add (AVX2), or 64 (AVX-512).
 constexpr auto wide = std::to_array<std::string_view>({"HASWELL", "ZEN", "SKYLAKEX", "COOPERLAKE", "SAPPHIRERAPIDS"});
 
+#if defined(__aarch64__)
+constexpr bool on_arm = true;
+#else
+constexpr bool on_arm = false;
+#endif
+
 bool is_wide(std::string_view core) {
   std::string name(core);
   std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::toupper(c); });
@@ -30,13 +36,9 @@ bool is_wide(std::string_view core) {
 }  // namespace
 
 Kernels kernels_for(std::string_view core, int bytes) {
-#if defined(__aarch64__)
-  // Every one of its kernels there has NEON, the registers that Eigen uses; some have SVE.
-  (void)bytes;
-  return core.empty() ? Kernels::eigen : Kernels::openblas;
-#else
+  // Every one of its kernels on arm64 has NEON, the registers that Eigen uses; some have SVE.
+  if (on_arm) return core.empty() ? Kernels::eigen : Kernels::openblas;
   return is_wide(core) && bytes < 64 ? Kernels::openblas : Kernels::eigen;
-#endif
 }
 
 Kernels kernels() {
