@@ -77,12 +77,12 @@ void Breaking::advance() {
   between_steps();
   const auto limit_before = run_->breakup().first_limit;
   run_->step();
-  if (!limit_before && run_->breakup().first_limit && !job_.scene.is_explicit)
+  if (!limit_before && run_->breakup().first_limit && job_.scene.is(IntegratorKind::implicit))
     job_.progress.say(fmt::format("rigid but for elastic contacts up to {:.1f} Pa ({} steps); from here it is flexible",
                                   *run_->breakup().first_limit, run_->statistics().rigid_steps));
   const ExpectedCost& cost = job_.cost;
   const std::optional<StepRange> steps =
-      cost.most_steps > 0 ? std::optional(StepRange{cost.least_steps, cost.most_steps}) : std::nullopt;
+      cost.steps.most > 0 ? std::optional(StepRange{cost.steps.least, cost.steps.most}) : std::nullopt;
   job_.progress.update(
       run_->fraction(), run_->statistics().steps,
       [&] {
@@ -103,7 +103,8 @@ void Breaking::run_to_the_end() {
 bool Breaking::is_uncertain() const {
   const Progression& p = saved_.progression;
   const auto error = relative_error(run_->breakup(), p.companion);
-  return error && *error > job_.scene.accuracy && !job_.scene.is_explicit && p.halvings < job_.scene.halvings;
+  return error && *error > job_.scene.accuracy && job_.scene.is(IntegratorKind::implicit) &&
+         p.halvings < job_.scene.halvings;
 }
 
 // The run with half of the tolerance; the one before is its companion.

@@ -16,7 +16,7 @@ Companion::~Companion() {
 }
 
 void Companion::begin() {
-  run_.emplace(scene_, start_, scene_.is_explicit ? 0.5 : 2);
+  run_.emplace(scene_, start_, scene_.is(IntegratorKind::explicit_euler) ? 0.5 : 2);
   if (!state_.integers.empty()) load(*run_, state_);
 }
 

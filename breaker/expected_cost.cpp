@@ -16,11 +16,9 @@ namespace {
 
 constexpr double budget = 0.2;  // s; a begun step is ended
 constexpr std::size_t most_samples = 40;
-constexpr double least_per_contact = 10, most_per_contact = 60;
 
 // Steps before the first contact yields are of a body that is rigid but for elastic contacts, and cheaper.
-double measured_step(const BreakerScene& scene, const Start& start) {
-  BreakupRun run(scene, start.agglomerate, 1);
+double measured_step(BreakupRun& run) {
   std::vector<double> rigid, flexible;
   const double begin = thread_seconds();
   double before = begin;
@@ -44,14 +42,17 @@ double measured_step(const BreakerScene& scene, const Start& start) {
 }  // namespace
 
 ExpectedCost expected_cost(const BreakerScene& scene, const Start& start) {
-  const double contacts = static_cast<double>(start.agglomerate.state.contacts.size());
-  return {least_per_contact * contacts, most_per_contact * contacts, measured_step(scene, start)};
+  BreakupRun run(scene, start.agglomerate, 1);
+  const ExpectedSteps steps = run.expected_steps();
+  return {steps, measured_step(run)};
 }
 
 std::string expected_cost_text(const ExpectedCost& c) {
-  return fmt::format("expected: {:.2g} to {:.2g} steps of {:.2g} ms, {} for one run", c.least_steps, c.most_steps,
+  if (c.steps.most == 0)
+    return fmt::format("expected: steps of {:.2g} ms; how many is not known", 1e3 * c.step_seconds);
+  return fmt::format("expected: {:.2g} to {:.2g} steps of {:.2g} ms, {} for one run", c.steps.least, c.steps.most,
                      1e3 * c.step_seconds,
-                     duration_range(c.least_steps * c.step_seconds, c.most_steps * c.step_seconds));
+                     duration_range(c.steps.least * c.step_seconds, c.steps.most * c.step_seconds));
 }
 
 }  // namespace crumble::breaker

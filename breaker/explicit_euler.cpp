@@ -97,4 +97,10 @@ bool ExplicitEuler::step(double latest_time) {
   return move(increment_, dt < dt_ ? latest_time : frame_.time + dt);
 }
 
+ExpectedSteps ExplicitEuler::expected_steps(double rigid_strength) const {
+  const double most = std::min(protocol_.time_of(2 * rigid_strength), protocol_.end());
+  if (std::isinf(most)) return {};
+  return {std::min(protocol_.time_of(0.5 * rigid_strength), most) / dt_, most / dt_};
+}
+
 }  // namespace crumble::breaker

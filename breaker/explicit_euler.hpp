@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string_view>
 
 #include "breaker/integrator.hpp"
 #include "common/hydro/lagged_hydrodynamics.hpp"
@@ -12,6 +13,9 @@ namespace crumble::breaker {
 // frame, the matrices and the solver of the implicit integrator.
 class ExplicitEuler : public Integrator {
  public:
+  static constexpr std::string_view summary =
+      "the paper's explicit method of first order: a fixed step, for comparison only";
+
   // step: s; 0 takes half of the stability limit; `coarsening` multiplies either. Throws std::invalid_argument for a
   // step beyond the limit unless `allow_unstable`.
   ExplicitEuler(const BreakupModel& model, const Protocol& protocol, const std::vector<double>& radius, Frame frame,
@@ -19,6 +23,8 @@ class ExplicitEuler : public Integrator {
 
   bool step(double latest_time) override;
   Frame laboratory() const override { return frame_; }
+  // Fixed steps until the ramp is at half the rigid strength, or at twice.
+  ExpectedSteps expected_steps(double rigid_strength) const override;
 
   void fields(SavedFields& f) override;
 

@@ -183,4 +183,9 @@ void Implicit::fields(SavedFields& f) {
   hydrodynamics_.renew_lubrication(near_reference_);
 }
 
+ExpectedSteps Implicit::expected_steps(double /*rigid_strength*/) const {
+  const auto contacts = static_cast<double>(frame_.contacts.size());
+  return {10 * contacts, 60 * contacts};
+}
+
 }  // namespace crumble::breaker

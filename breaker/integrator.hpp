@@ -17,6 +17,11 @@ struct IntegratorStatistics {
   void fields(SavedFields& f);
 };
 
+// How many steps a breakup takes, before it has broken.
+struct ExpectedSteps {
+  double least = 0, most = 0;  // both 0: not known
+};
+
 class Integrator {
  public:
   virtual ~Integrator() = default;
@@ -26,6 +31,9 @@ class Integrator {
   // One step, not beyond latest_time. True if a contact was made or lost. Throws std::runtime_error saying what failed
   // where; the state is then that of the last whole step.
   virtual bool step(double latest_time) = 0;
+
+  // rigid_strength: stress at which the agglomerate would break if it did not deform, Pa.
+  virtual ExpectedSteps expected_steps(double rigid_strength) const = 0;
 
   // The present state in the axes of the laboratory.
   virtual Frame laboratory() const = 0;

@@ -61,7 +61,7 @@ int break_up(int argc, const char* const* argv) {
   adapt(scene, start.rigid_strength);
   for (const std::string& fact : describe(scene, start)) progress.say(fact);
   ExpectedCost cost;
-  if (!scene.is_explicit && !scene.model.gradient.isZero()) {
+  if (!scene.model.gradient.isZero()) {
     cost = expected_cost(scene, start);
     if (cost.step_seconds > 0) progress.say(expected_cost_text(cost));
   }

@@ -36,6 +36,16 @@ double Protocol::end() const {
   return sum;
 }
 
+double Protocol::time_of(double stress) const {
+  double begin = 0;
+  for (const Stage& stage : stages_) {
+    if (stage.rate > 0 && stage.stress + stage.rate * stage.duration >= stress)
+      return begin + std::max(stress - stage.stress, 0.0) / stage.rate;
+    begin += stage.duration;
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
 double Protocol::strain(double time) const {
   double sum = 0, begin = 0;
   for (const Stage& stage : stages_) {

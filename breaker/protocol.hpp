@@ -21,6 +21,7 @@ class Protocol {
   double stress_before(double time) const;  // at a boundary that of the earlier stage
   double stage_end(double time) const;      // s, of the stage that holds just after `time`; infinite for the last ramp
   double end() const;                       // s
+  double time_of(double stress) const;      // s, when a ramp first reaches it; infinite if none does
   // Strain gamma_dot dt summed up to a time: integral of stress over viscosity, for 1 Pa s.
   double strain(double time) const;
   const std::vector<Stage>& stages() const { return stages_; }

@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "breaker/alignment.hpp"
 #include "breaker/body_hydrodynamics.hpp"
+#include "breaker/explicit_euler.hpp"
+#include "breaker/implicit.hpp"
 #include "common/agglomerate/fragments.hpp"
 #include "common/agglomerate/morphology.hpp"
 #include "common/io/granule.hpp"
@@ -50,8 +53,8 @@ std::string how_estimated(const BreakerScene& scene, const Breakup& b, std::opti
   if (!b.severed) return "nothing broke";
   if (!companion) return "not estimated: error.estimate = false";
   if (std::isinf(*companion)) return "not estimated: the companion run did not break";
-  return scene.is_explicit ? "difference to the same run with half the step"
-                           : "difference to the same run with doubled tolerance";
+  return scene.is(IntegratorKind::explicit_euler) ? "difference to the same run with half the step"
+                                                  : "difference to the same run with doubled tolerance";
 }
 
 }  // namespace
@@ -106,7 +109,7 @@ void fill_left_out(Report& report, const BreakerScene& scene, const BreakupRun& 
   report.left_out.push_back("inertia: Stokes flow, velocities follow forces at once");
   report.left_out.push_back("attraction outside contact: JKR acts from first touch to pull-off only, as in the paper");
   const auto& s = run.statistics();
-  if (!scene.is_explicit)
+  if (scene.is(IntegratorKind::implicit))
     report.left_out.push_back(fmt::format(
         "deformation in the first {} of {} steps: hydrodynamic matrices of the rest shape, since no contact "
         "was at a limit and no particle had moved by {:g} a in the axes of the body",
@@ -143,7 +146,8 @@ void fill_report(Report& report, const BreakerScene& scene, const Start& start, 
   report.result("breakage", breakage(b, scene));
   report.result("strain", run.protocol().strain(run.time()) / scene.model.viscosity);
   report.result("hydrodynamics", name_of(scene.model.hydro.rung));
-  report.result("tolerance", scene.is_explicit ? Report::Value(nullptr) : Report::Value(run.tolerance()));
+  report.result("tolerance",
+                scene.is(IntegratorKind::explicit_euler) ? Report::Value(nullptr) : Report::Value(run.tolerance()));
   report.result("scaled_by", start.scale);
   report.result("closing.residual_rms_over_f_po", start.self_stress.rms_use);
   report.result("closing.residual_max_over_f_po", start.self_stress.max_use);
@@ -202,6 +206,10 @@ GranuleStrength granule_strength(const BreakupRun& run, const BreakerScene& scen
           radial_extent(start.agglomerate.state.position, p.radius, p.mass).diameter()};
 }
 
+std::string_view integrator_summary(const BreakerScene& scene) {
+  return scene.is(IntegratorKind::implicit) ? Implicit::summary : ExplicitEuler::summary;
+}
+
 std::vector<std::string> describe(const BreakerScene& scene, const Start& start) {
   const Particles& particles = start.agglomerate.particles;
   const Frame& frame = start.agglomerate.state;
@@ -220,17 +228,11 @@ std::vector<std::string> describe(const BreakerScene& scene, const Start& start)
         "warning: fts-lubrication acts on the collective motion of near pairs and adds up over neighbours; "
         "it overestimates the loads of an almost rigid cluster. It is here to reproduce Eq. 9.");
   if (scene.model.gradient.isZero()) return lines;
+  lines.push_back(fmt::format("integrator: {}", integrator_summary(scene)));
   const double mu = scene.model.viscosity;
   const double stress = start.rigid_strength;
   lines.push_back(fmt::format("as a rigid body it would break at {:.4g} Pa", stress));
-  double time = 0;
-  for (const Stage& stage : scene.protocol.stages()) {
-    if (stage.rate > 0 && stage.stress + stage.rate * stage.duration >= stress) {
-      time += (stress - stage.stress) / stage.rate;
-      break;
-    }
-    time += stage.duration;
-  }
+  const double time = std::min(scene.protocol.time_of(stress), scene.protocol.end());
   const double available = std::isfinite(time) ? scene.protocol.strain(time) / mu : 0;
   BodyHydrodynamics hydrodynamics(particles.radius, mu, scene.model.hydro);
   hydrodynamics.renew_far_field(frame.position);

@@ -25,7 +25,7 @@ BreakupRun::BreakupRun(const BreakerScene& scene, const Agglomerate& start, doub
       course_(start.particles, pieces_, stress()) {}
 
 std::unique_ptr<Integrator> BreakupRun::integrate(const std::vector<double>& radius, Frame frame) const {
-  if (scene_.is_explicit) {
+  if (scene_.is(IntegratorKind::explicit_euler)) {
     try {
       return std::make_unique<ExplicitEuler>(scene_.model, protocol_, radius, std::move(frame), scene_.step,
                                              scene_.allow_unstable, coarsening_);

@@ -27,7 +27,10 @@ class BreakupRun {
   double tolerance() const { return scene_.tolerance * coarsening_; }  // of the implicit integrator
   double time() const { return pieces_[turn_].time(); }
   double stress() const { return protocol_.stress_before(time()); }  // Pa
-  double fraction() const;                                           // done, a guess: largest use of a contact so far
+  ExpectedSteps expected_steps() const {
+    return pieces_[0].integrator->expected_steps(scene_.rigid_strength);
+  }                          // of the whole
+  double fraction() const;   // done, a guess: largest use of a contact so far
   Frame laboratory() const;  // all particles; those of lost fragments where they were lost
   const Look& look() const { return course_.look(); }
   const Breakup& breakup() const { return course_.breakup(); }

@@ -188,10 +188,11 @@ BreakerScene breaker_scene(const Scene& scene) {
   s.until_stable = scene.flag("breakup.until_stable");
   s.stable_strain = scene.real("breakup.stable_strain");
   s.brittle_below = scene.real("breakup.brittle_below");
-  s.is_explicit = scene.choice("integrator.method") == "explicit";
+  s.integrator =
+      scene.choice("integrator.method") == "explicit" ? IntegratorKind::explicit_euler : IntegratorKind::implicit;
   s.tolerance = scene.real("integrator.tolerance");
   if (scene.is_set("integrator.step")) {
-    if (!s.is_explicit)
+    if (s.is(IntegratorKind::implicit))
       throw scene.error("integrator.step",
                         "has no meaning to the implicit integrator, which chooses its steps itself; set "
                         "integrator.method = \"explicit\" or remove it");

@@ -14,6 +14,9 @@ namespace crumble::breaker {
 
 const ParameterTable& breaker_parameters();
 
+// Which of the integrators runs: implicit.hpp, explicit_euler.hpp.
+enum class IntegratorKind { implicit, explicit_euler };
+
 struct BreakerScene {
   std::optional<double> radius;  // m
   bool keep_contacts = false, only_largest = false;
@@ -23,7 +26,7 @@ struct BreakerScene {
   FlowKind flow = FlowKind::elongation;
   Protocol protocol;         // without stages: adapt() makes the ramp
   double ramp_strain = 500;  // of that ramp, up to the rigid strength
-  bool is_explicit = false;
+  IntegratorKind integrator = IntegratorKind::implicit;
   double tolerance = 0.01;
   double step = 0;  // explicit only, s; 0: half the stability limit
   bool allow_unstable = false;
@@ -38,6 +41,8 @@ struct BreakerScene {
   std::int64_t halvings = 2;  // at most so often
   double rigid_strength = 0;  // Pa, of the agglomerate; adapt() sets it
   double largest_stress = 0, sample_interval = 0, frame_interval = 0;  // Pa; 0: adapt() says
+
+  bool is(IntegratorKind kind) const { return integrator == kind; }
 };
 
 // Throws InputError naming file, line and keys where values contradict each other.

@@ -4,12 +4,20 @@
 #include "dryer/bond_block.hpp"
 #include "dryer/brownian_path.hpp"
 #include "dryer/integrator.hpp"
+#include "dryer/work.hpp"
 
 namespace crumble::dryer {
 
 struct BrownianControl {
   double contact_step = 0.15;  // the short step, in the time a = zeta/k_n in which a contact relaxes
   int depth = 6;               // 2^depth short steps make one long step
+};
+
+// A part of the drying in which the contacts are equally soft.
+struct BrownianStage {
+  DryingModel model;  // with its softened contacts
+  int depth;
+  double most_bonds;  // per particle; with more the next stage begins
 };
 
 // dx = F/zeta dt + sqrt(2 D) dW and the same for rotations, D = kT/zeta (Eqs. 1, 4, 5 without inertia).
@@ -24,12 +32,20 @@ struct BrownianControl {
 // A particle left dry has no noise (model.dry).
 class Brownian : public Integrator {
  public:
+  static constexpr std::string_view summary =
+      "Brownian motion without inertia: short steps for particles near or bonded to others, long ones for the rest";
+
   Brownian(const DryingModel& model, Agglomerate& state, std::uint64_t seed, const BrownianControl& control);
 
   // One long step. Throws std::domain_error naming the particle if the state is not finite.
   void step(double latest_time) override;
 
   void fields(SavedFields& f) override;
+
+  // The fixed long steps of each stage. Short steps are for particles that have come to rest at the front, that a
+  // neighbour is near, or that bonds hold together.
+  static Work expected_work(const DryingModel& model, const std::vector<double>& radius,
+                            const std::vector<BrownianStage>& stages, double contact_step, const StepTimes& times);
 
   // contact_step times zeta/k_n of the smallest pair, s.
   static double short_step(const DryingModel& model, double a, double contact_step);

@@ -49,7 +49,7 @@ void Drying::advance() {
                                      : std::string("during the error estimate");
   });
   saved_.run->step();
-  job_.progress.update(job_.cost.share(run().fraction()), run().integrator().statistics().steps, [&] {
+  job_.progress.update(job_.cost.work.share(run().fraction()), run().integrator().statistics().steps, [&] {
     return fmt::format("R = {:.3g} nm, {} contacts", run().droplet_radius() * 1e9, run().state().state.contacts.size());
   });
 }

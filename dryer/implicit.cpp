@@ -207,4 +207,15 @@ void Implicit::accept(double dt) {
   front_.follow(state_);
 }
 
+Work Implicit::expected_work(const DryingModel& model, const std::vector<double>& radius,
+                             const ImplicitControl& control, const StepTimes& times) {
+  const double N = static_cast<double>(radius.size());
+  const double advance = model.droplet.initial_radius / radius.back() / control.largest_displacement;
+  Work work;
+  work.steps = advance / 0.8 + 5.5 * std::pow(N, 0.75);
+  work.add_up([](double fraction) { return 1 - std::pow(1 - fraction, 3); });
+  work.seconds = std::pow(N / times.particles, 0.23) * N * work.steps * times.packed;
+  return work;
+}
+
 }  // namespace crumble::dryer

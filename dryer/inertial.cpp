@@ -105,4 +105,13 @@ void Inertial::evaluate_forces() {
   }
 }
 
+Work Inertial::expected_work(const DryingModel& model, const std::vector<double>& radius, double step,
+                             const StepTimes& times) {
+  Work work;
+  work.steps = model.droplet.lifetime / step;
+  work.add_up([](double fraction) { return 1 - fraction; });
+  work.seconds = 0.5 * (times.packed + times.loose) * static_cast<double>(radius.size()) * work.steps;
+  return work;
+}
+
 }  // namespace crumble::dryer

@@ -4,6 +4,7 @@
 
 #include "common/numerics/noise.hpp"
 #include "dryer/integrator.hpp"
+#include "dryer/work.hpp"
 
 namespace crumble::dryer {
 
@@ -14,6 +15,8 @@ namespace crumble::dryer {
 // 2/omega_max.
 class Inertial : public Integrator {
  public:
+  static constexpr std::string_view summary = "Newton's equations with inertia: a fixed step, for comparison only";
+
   // seed: of the Brownian forces; of no matter while model.thermal_energy is 0.
   Inertial(const DryingModel& model, Agglomerate& state, double step, std::uint64_t seed = 0);
 
@@ -22,6 +25,10 @@ class Inertial : public Integrator {
 
   // 0.2 sqrt(m/k), k the stiffest spring of the smallest particle: a fifth of the period of a bonded pair / 2 pi.
   static double recommended_step(const DryingModel& model, const Particles& particles);
+
+  // The fixed step, for all particles from the beginning to the end.
+  static Work expected_work(const DryingModel& model, const std::vector<double>& radius, double step,
+                            const StepTimes& times);
 
  private:
   void kick();

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "dryer/drag.hpp"
+#include "dryer/inertial.hpp"
 #include "dryer/outcome.hpp"
 
 namespace crumble::dryer {
@@ -43,12 +44,18 @@ std::string DryingRegime::words() const {
   return text;
 }
 
-bool steps_are_free(const DryingScene& s) { return s.is(IntegratorKind::stabilised) || s.is(IntegratorKind::implicit); }
-
-std::string integrator_text(const DryingScene& s) {
-  return s.is(IntegratorKind::stabilised)
-             ? "explicit stabilised steps: as many evaluations as the stiffest contact asks for, no equations"
-             : "implicit steps: as long as the motion is smooth, each the solution of equations for all";
+std::string_view integrator_summary(const DryingScene& s) {
+  switch (s.integrator) {
+    case IntegratorKind::inertial:
+      return Inertial::summary;
+    case IntegratorKind::implicit:
+      return Implicit::summary;
+    case IntegratorKind::stabilised:
+      return Stabilised::summary;
+    case IntegratorKind::brownian:
+      break;
+  }
+  return Brownian::summary;
 }
 
 std::vector<std::string> describe(const DryingScene& s) {
@@ -89,7 +96,7 @@ std::vector<std::string> describe(const DryingScene& s) {
   lines.push_back(r.words());
   const Expected expected = expected_shape(r);
   lines.push_back(fmt::format("expected shape: {}; {}", name_of(expected.shape), expected.why));
-  if (steps_are_free(s)) lines.push_back(fmt::format("integrator: {}", integrator_text(s)));
+  lines.push_back(fmt::format("integrator: {}", integrator_summary(s)));
   return lines;
 }
 
@@ -111,7 +118,7 @@ void report_regime(Report& report, const DryingScene& s) {
   report.result("inputs.force_ratio", r.force_ratio);
   report.result("inputs.packed_front_over_capillary_speed", r.packed_front_speed / r.capillary_speed);
   report.result("inputs.regime", r.words());
-  if (steps_are_free(s)) report.result("inputs.integrator", integrator_text(s));
+  report.result("inputs.integrator", std::string(integrator_summary(s)));
 }
 
 }  // namespace crumble::dryer

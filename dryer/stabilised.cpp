@@ -367,4 +367,24 @@ void Stabilised::fields(SavedFields& f) {
   f("next_step", next_dt_);
 }
 
+Work Stabilised::expected_work(const DryingModel& model, const std::vector<double>& radius,
+                               const StabilisedControl& control, const StepTimes& times) {
+  const double a = radius.back(), zeta = drag_coefficient(model.viscosity, a);
+  const Droplet& droplet = model.droplet;
+  const BondLaw law(model.contact, model.material, a, a);
+  const double bonds = 12 * std::max(law.normal_stiffness(), law.k_s) / zeta;
+  const double fastest = std::max(bonds, 4 * surface_rate(droplet, a, zeta, droplet.initial_radius));
+  const double advance = droplet.initial_radius / a / control.largest_displacement;
+  Work work;
+  work.steps = 2.0 / 3 * std::sqrt(2.5 * fastest * droplet.lifetime * advance);
+  // Evaluations for the front's way go like the root of R; those swept so far are awake, three quarters on average.
+  const double phi = solids_share(droplet, radius);
+  const double swept = work.add_up([&](double fraction) {
+    const double R = 1 - fraction;
+    return 1.5 * std::sqrt(R) * std::min(1.0, 1 - R * R * R + 0.5 * phi / (R * R * R));
+  });
+  work.seconds = 0.75 / std::max(swept, 0.5) * swept * work.steps * static_cast<double>(radius.size()) * times.packed;
+  return work;
+}
+
 }  // namespace crumble::dryer

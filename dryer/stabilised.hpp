@@ -7,6 +7,7 @@
 #include "dryer/displacement.hpp"
 #include "dryer/integrator.hpp"
 #include "dryer/relaxation_rate.hpp"
+#include "dryer/work.hpp"
 
 namespace crumble::dryer {
 
@@ -24,12 +25,21 @@ struct StabilisedControl {
 // neither the front nor a bond has reached are in it only as obstacles.
 class Stabilised : public Integrator {
  public:
+  static constexpr std::string_view summary =
+      "explicit stabilised steps: as many evaluations as the stiffest contact asks for, no equations";
+
   Stabilised(const DryingModel& model, Agglomerate& state, const StabilisedControl& control);
 
   // Throws std::domain_error naming the particle if the state is not finite.
   void step(double latest_time) override;
 
   void fields(SavedFields& f) override;
+
+  // Evaluations: stages of the Chebyshev method, summed over steps that the front makes each in the time of the largest
+  // displacement. The fastest rate is some 12 k/zeta, k the stiffest spring of a bond, or that at which a strong
+  // surface catches a particle.
+  static Work expected_work(const DryingModel& model, const std::vector<double>& radius,
+                            const StabilisedControl& control, const StepTimes& times);
 
  private:
   void choose(double R_end);

@@ -272,6 +272,13 @@ TEST(Protocol, StagesFollowEachOther) {
   EXPECT_NEAR(p.strain(0.44), 2 * 0.2 + 150 * 0.04, 1e-9);
 }
 
+TEST(Protocol, TellsWhenARampFirstReachesAStress) {
+  const Protocol protocol({{0, 2, 10}, {5, 0, 1}, {5, 10}});
+  EXPECT_DOUBLE_EQ(protocol.time_of(20), 10);
+  EXPECT_DOUBLE_EQ(protocol.time_of(25), 13);
+  EXPECT_TRUE(std::isinf(Protocol({{0, 2, 10}}).time_of(21)));
+}
+
 TEST(Protocol, ThePapersGivesTheStrainOfTheRamp) {
   const Protocol p({{0, 0, 0.1}, {2, 0, 0.1}, {0, 5000}});
   // S^2/(2 r mu) at S = 1000 Pa, and 0.2 before.

@@ -136,8 +136,8 @@ TEST(ExpectedCost, the_number_of_steps_agrees_with_a_run) {
   DryingRun run(s, 1);
   while (!run.finished()) run.step();
   const auto steps = static_cast<double>(run.integrator().statistics().steps);
-  EXPECT_GT(expected_cost(s).steps, steps / 1.5);  // seeds alone scatter by a tenth
-  EXPECT_LT(expected_cost(s).steps, steps * 1.5);
+  EXPECT_GT(expected_cost(s).work.steps, steps / 1.5);  // seeds alone scatter by a tenth
+  EXPECT_LT(expected_cost(s).work.steps, steps * 1.5);
 }
 
 TEST(ExpectedCost, the_steps_of_a_brownian_run_are_its_own) {
@@ -148,7 +148,7 @@ TEST(ExpectedCost, the_steps_of_a_brownian_run_are_its_own) {
   while (!run.finished()) run.step();
   // When the softer stages end is estimated.
   const auto steps = static_cast<double>(run.integrator().statistics().steps);
-  EXPECT_NEAR(expected_cost(s).steps, steps, 0.3 * steps);
+  EXPECT_NEAR(expected_cost(s).work.steps, steps, 0.3 * steps);
 }
 
 TEST(Softening, ends_with_the_contacts_of_the_material_before_anything_is_dry_for_long) {
