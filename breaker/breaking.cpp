@@ -87,7 +87,7 @@ void Breaking::advance() {
       run_->fraction(), run_->statistics().steps,
       [&] {
         return fmt::format("step {}, {:.3g} Pa, {} contacts, largest tension {:.2f} F_po", run_->statistics().steps,
-                           run_->stress(), run_->look().contacts, run_->look().network.max_use);
+                           run_->stress(), run_->observation().contacts, run_->observation().network.max_use);
       },
       steps);
 }

@@ -12,27 +12,27 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-void look_fields(SavedFields f, std::vector<Look>& looks) {
-  const auto column = [&](const char* name, auto member) { f.column(name, looks, member); };
-  column("stress", &Look::stress);
-  column("radius_of_gyration", &Look::radius_of_gyration);
-  column("semi_axes", &Look::semi_axes);
-  column("largest_fragment", &Look::largest_fragment);
-  column("contacts", &Look::contacts);
+void observation_fields(SavedFields f, std::vector<Observation>& all) {
+  const auto column = [&](const char* name, auto member) { f.column(name, all, member); };
+  column("stress", &Observation::stress);
+  column("radius_of_gyration", &Observation::radius_of_gyration);
+  column("semi_axes", &Observation::semi_axes);
+  column("largest_fragment", &Observation::largest_fragment);
+  column("contacts", &Observation::contacts);
   std::vector<NetworkState> network;
-  for (const Look& look : looks) network.push_back(look.network);
+  for (const Observation& seen : all) network.push_back(seen.network);
   f.column("max_tension", network, &NetworkState::max_tension);
   f.column("max_use", network, &NetworkState::max_use);
   f.column("slipping", network, &NetworkState::slipping);
   f.column("twisting", network, &NetworkState::twisting);
   f.column("rolling", network, &NetworkState::rolling);
-  for (std::size_t k = 0; k < looks.size(); ++k) looks[k].network = network[k];
+  for (std::size_t k = 0; k < all.size(); ++k) all[k].network = network[k];
 }
 
-void look_fields(SavedFields f, Look& look) {
-  std::vector<Look> one{look};
-  look_fields(f, one);
-  look = one.front();
+void observation_fields(SavedFields f, Observation& seen) {
+  std::vector<Observation> one{seen};
+  observation_fields(f, one);
+  seen = one.front();
 }
 
 }  // namespace
@@ -44,32 +44,32 @@ Course::Course(const Particles& particles, const Pieces& pieces, double stress)
   breakup_.fragments = fragment_sizes(fragments(particles.size(), contacts));
   note_fragments(pieces[0], stress);
   observe(pieces, stress);
-  breakup_.initial = breakup_.before = look_;
+  breakup_.initial = breakup_.before = now_;
 }
 
 void Course::observe(const Pieces& pieces, double stress) {
-  look_ = {};
-  look_.stress = stress;
+  now_ = {};
+  now_.stress = stress;
   const Piece* largest = &pieces[0];
   for (const Piece& piece : pieces) {
     const std::vector<Contact>& contacts = piece.frame().contacts;
     if (piece.member.size() > largest->member.size()) largest = &piece;
-    look_.contacts += static_cast<std::int64_t>(contacts.size());
-    look_.largest_fragment =
-        std::max(look_.largest_fragment, fragment_sizes(fragments(piece.member.size(), contacts)).front());
+    now_.contacts += static_cast<std::int64_t>(contacts.size());
+    now_.largest_fragment =
+        std::max(now_.largest_fragment, fragment_sizes(fragments(piece.member.size(), contacts)).front());
     const NetworkState n = network_state(contacts, piece.integrator->network().laws());
-    look_.network.max_tension = std::max(look_.network.max_tension, n.max_tension);
-    look_.network.max_use = std::max(look_.network.max_use, n.max_use);
-    look_.network.slipping += n.slipping;
-    look_.network.twisting += n.twisting;
-    look_.network.rolling += n.rolling;
+    now_.network.max_tension = std::max(now_.network.max_tension, n.max_tension);
+    now_.network.max_use = std::max(now_.network.max_use, n.max_use);
+    now_.network.slipping += n.slipping;
+    now_.network.twisting += n.twisting;
+    now_.network.rolling += n.rolling;
   }
   const std::vector<double> radius = of_members(particles_.radius, largest->member),
                             mass = of_members(particles_.mass, largest->member);
-  look_.radius_of_gyration = radius_of_gyration(largest->frame().position, mass);
-  look_.semi_axes = semi_axes(largest->frame().position, radius, mass);
-  max_use_ = std::max(max_use_, look_.network.max_use);
-  if (!breakup_.severed && (past_.empty() || look_.stress > 1.001 * past_.back().stress)) past_.push_back(look_);
+  now_.radius_of_gyration = radius_of_gyration(largest->frame().position, mass);
+  now_.semi_axes = semi_axes(largest->frame().position, radius, mass);
+  max_use_ = std::max(max_use_, now_.network.max_use);
+  if (!breakup_.severed && (past_.empty() || now_.stress > 1.001 * past_.back().stress)) past_.push_back(now_);
 }
 
 // In order of time: pieces that move one after the other tell of the same interval.
@@ -110,9 +110,9 @@ void Course::lose(double time, double stress, const std::vector<std::int64_t>& s
 }
 
 // What it looked like shortly before: once the last avalanche has begun shape says nothing about the way to it.
-void Course::look_back(double stress) {
-  for (const Look& look : past_)
-    if (look.stress <= 0.99 * stress) breakup_.before = look;
+void Course::find_whole_before(double stress) {
+  for (const Observation& seen : past_)
+    if (seen.stress <= 0.99 * stress) breakup_.before = seen;
 }
 
 void Course::end_with_breakup(const Piece& kept, std::size_t particles_lost, double stress) {
@@ -125,7 +125,7 @@ void Course::end_with_breakup(const Piece& kept, std::size_t particles_lost, dou
   std::nth_element(severed.begin(), decisive, severed.end());
   breakup_.severed = *decisive;
   breakup_.lost = stress;
-  look_back(*decisive);
+  find_whole_before(*decisive);
 }
 
 void Course::end_unbroken() {
@@ -133,11 +133,11 @@ void Course::end_unbroken() {
 }
 
 void Course::fields(SavedFields& f) {
-  look_fields(f.in("look"), look_);
-  look_fields(f.in("initial"), breakup_.initial);
-  look_fields(f.in("before"), breakup_.before);
+  observation_fields(f.in("observation"), now_);
+  observation_fields(f.in("initial"), breakup_.initial);
+  observation_fields(f.in("before"), breakup_.before);
   f.size("past", past_);
-  look_fields(f.in("past"), past_);
+  observation_fields(f.in("past"), past_);
   f("first_limit", breakup_.first_limit);
   f("first_rupture", breakup_.first_rupture);
   f("critical_stress", breakup_.severed);

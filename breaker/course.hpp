@@ -10,7 +10,7 @@
 namespace crumble::breaker {
 
 // Size and shape, and what the flow does to the contacts, at one instant.
-struct Look {
+struct Observation {
   double stress = 0;  // Pa
   // Of the largest piece that still moves, m.
   double radius_of_gyration = 0;
@@ -27,7 +27,7 @@ struct Breakup {
   std::optional<double> severed;  // the last load path to what was lost gave way: the critical stress
   std::optional<double> lost;     // it was beyond reach
   std::int64_t contacts_initial = 0;
-  Look initial, before;                 // at the start of the flow, and whole for the last time
+  Observation initial, before;          // at the start of the flow, and whole for the last time
   std::vector<std::int64_t> fragments;  // sizes at the end, descending
 };
 
@@ -36,12 +36,12 @@ class Course {
   // pieces, stress: at the start.
   Course(const Particles& particles, const Pieces& pieces, double stress);
 
-  const Look& look() const { return look_; }
+  const Observation& observation() const { return now_; }
   const Breakup& breakup() const { return breakup_; }
   const std::vector<Event>& events() const { return events_; }
   double max_use() const { return max_use_; }  // largest tension over pull-off force of any contact so far
 
-  // A look at the pieces under a stress. Looks at what is not yet broken are kept, one every thousandth of the stress.
+  // Observes the pieces under a stress. What is not yet broken is kept, once every thousandth of the stress.
   void observe(const Pieces& pieces, double stress);
   // Takes over the events of a piece. True if a contact was lost.
   bool collect_events(Piece& piece);
@@ -61,13 +61,13 @@ class Course {
   const Particles& particles_;
   std::vector<double> severed_at_;  // stress at which each particle left the largest fragment; infinite: it is in it
   std::vector<Event> events_;
-  std::vector<Look> past_;
-  Look look_;
+  std::vector<Observation> past_;
+  Observation now_;
   Breakup breakup_;
   double max_use_ = 0;
 
   void note(Event event);
-  void look_back(double stress);
+  void find_whole_before(double stress);
 };
 
 }  // namespace crumble::breaker

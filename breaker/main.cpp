@@ -84,7 +84,8 @@ int break_up(int argc, const char* const* argv) {
   breaking.forget();
   fill_report(report, scene, start, breaking.run(), breaking.companion());
   std::string answer = result_text(breaking.run(), scene, breaking.companion());
-  if (at) answer += told(report, *at, granule_strength(breaking.run(), scene, text, start, breaking.companion()));
+  if (at)
+    answer += report_service(report, *at, granule_strength(breaking.run(), scene, text, start, breaking.companion()));
   deliver(answer, [&] { report.write(line.report); });
   return 0;
 }

@@ -18,7 +18,7 @@
 namespace crumble::breaker {
 
 void append_frame(FrameLog& frames, const BreakupRun& run, const BreakerScene& scene) {
-  const NetworkState& n = run.look().network;
+  const NetworkState& n = run.observation().network;
   frames.append(run.laboratory(), {{"flow_stress", run.stress()},
                                    {"shear_rate", run.stress() / scene.model.viscosity},
                                    {"max_tension", n.max_tension},
@@ -27,7 +27,7 @@ void append_frame(FrameLog& frames, const BreakupRun& run, const BreakerScene& s
 }
 
 void append_sample(FrameLog& frames, const BreakupRun& run) {
-  const Look& l = run.look();
+  const Observation& l = run.observation();
   frames.sample(run.statistics().steps, run.time(),
                 {{"flow_stress", "Pa", l.stress},
                  {"radius_of_gyration", "nm", l.radius_of_gyration},

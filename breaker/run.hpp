@@ -32,7 +32,7 @@ class BreakupRun {
   }                          // of the whole
   double fraction() const;   // done, a guess: largest use of a contact so far
   Frame laboratory() const;  // all particles; those of lost fragments where they were lost
-  const Look& look() const { return course_.look(); }
+  const Observation& observation() const { return course_.observation(); }
   const Breakup& breakup() const { return course_.breakup(); }
   const std::vector<Event>& events() const { return course_.events(); }
   IntegratorStatistics statistics() const { return pieces_.statistics(); }

@@ -43,7 +43,8 @@ RigidBodyResponse far_field_response(const Network& network, const Vector3& cent
     if (n >= 3000) say(fmt::format("right-hand side {} of {}: {} iterations", column + 1, columns, iterations));
   };
   // A thousandth of the far field's own error.
-  const MatrixFreeHydrodynamics hydrodynamics(spheres_of(network), viscosity, {}, {.tolerance = 1e-5, .heard = tell});
+  const MatrixFreeHydrodynamics hydrodynamics(spheres_of(network), viscosity, {},
+                                              {.tolerance = 1e-5, .on_solved = tell});
   RigidBodyResponse body = rigid_body_response(hydrodynamics, network.position(), centre);
   // Loads known to 1e-5 leave a net load of that size, which the free body answers by moving: to round-off.
   Eigen::Matrix<double, 6, 6> resistance = Eigen::Matrix<double, 6, 6>::Zero();

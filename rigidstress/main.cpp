@@ -118,7 +118,7 @@ int load(int argc, const char* const* argv) {
   checkpoint.remove();
   fill_report(report, *analysis, scene);
   std::string answer = result_text(*analysis, scene);
-  if (at) answer += told(report, *at, granule_strength(*analysis, scene, text));
+  if (at) answer += report_service(report, *at, granule_strength(*analysis, scene, text));
   deliver(answer, [&] { report.write(line.report); });
   return 0;
 }

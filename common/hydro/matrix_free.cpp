@@ -49,7 +49,7 @@ MatrixFreeHydrodynamics::~MatrixFreeHydrodynamics() = default;
 
 void MatrixFreeHydrodynamics::solved(Eigen::Index column, Eigen::Index columns) const {
   most_iterations_ = column == 0 ? iterations_ : std::max(most_iterations_, iterations_);
-  if (settings_.heard) settings_.heard(static_cast<int>(column), static_cast<int>(columns), iterations_);
+  if (settings_.on_solved) settings_.on_solved(static_cast<int>(column), static_cast<int>(columns), iterations_);
 }
 
 Eigen::VectorXd MatrixFreeHydrodynamics::solve_far_field(const Operator& mobility, const Eigen::VectorXd& w) const {

@@ -13,7 +13,7 @@ struct MatrixFreeSettings {
   double tolerance = 1e-8;  // resistance: of the residual, relative; mobility: of the velocities
   int limit = 500;          // iterations
   int neighbours = 30;      // resistance: what a sphere keeps in the preconditioner; 0 leaves its own mobility
-  std::function<void(int column, int columns, int iterations)> heard = {};  // of every solved right-hand side
+  std::function<void(int column, int columns, int iterations)> on_solved = {};  // of every solved right-hand side
 };
 
 //   resistance  conjugate gradients, preconditioned by SparseInverse

@@ -114,7 +114,7 @@ std::string answer_text(const ServiceLoad& load, const GranuleStrength& s) {
   return text;
 }
 
-std::string told(Report& report, const ServiceLoad& load, const GranuleStrength& s) {
+std::string report_service(Report& report, const ServiceLoad& load, const GranuleStrength& s) {
   const auto maybe = [](const std::optional<double>& x) { return x ? Report::Value(*x) : Report::Value(nullptr); };
   report.result("at.given", load.given);
   report.result("at.stress_pa", load.stress);

@@ -52,6 +52,6 @@ Verdict verdict(const ServiceLoad& load, const GranuleStrength& strength);
 // One sentence with the three errors side by side, and another where the flow is not linear at the granule's size.
 std::string answer_text(const ServiceLoad& load, const GranuleStrength& strength);
 // The same under `at` in the report; returns the sentence.
-std::string told(Report& report, const ServiceLoad& load, const GranuleStrength& strength);
+std::string report_service(Report& report, const ServiceLoad& load, const GranuleStrength& strength);
 
 }  // namespace crumble
