@@ -9,15 +9,54 @@
 
 namespace crumble::rigidstress {
 
+namespace {
+
+constexpr int sets = 4;
+
+// Where set number s of `count` values begins.
+std::size_t set_begin(int s, std::size_t count) { return static_cast<std::size_t>(s) * count / sets; }
+
 Quaternion random_orientation(std::uint64_t seed, std::uint32_t number) {
   const auto q = random_normals(seed, Purpose::orientation, number, 0);
   return Quaternion(q[0], q[1], q[2], q[3]).normalized();
 }
 
-std::vector<Quaternion> random_orientations(std::uint64_t seed, int count) {
+// Super-Fibonacci spiral: sqrt 2, and the root of x^4 = x + 4.
+Quaternion on_spiral(std::size_t k, std::size_t count) {
+  const double s = static_cast<double>(k) + 0.5, share = s / static_cast<double>(count);
+  const double alpha = 2 * std::numbers::pi * s / std::numbers::sqrt2,
+               beta = 2 * std::numbers::pi * s / 1.533751168755204288118041;
+  const double r = std::sqrt(share), R = std::sqrt(1 - share);
+  return {R * std::cos(beta), r * std::sin(alpha), r * std::cos(alpha), R * std::sin(beta)};
+}
+
+}  // namespace
+
+std::vector<Quaternion> even_orientations(std::uint64_t seed, int count) {
   std::vector<Quaternion> all;
-  for (int k = 0; k < count; ++k) all.push_back(random_orientation(seed, static_cast<std::uint32_t>(k)));
+  const auto number = static_cast<std::size_t>(count);
+  const int parts = number < 4 * sets ? 1 : sets;
+  for (int s = 0; s < parts; ++s) {
+    const Quaternion turn = random_orientation(seed, static_cast<std::uint32_t>(s));
+    const std::size_t begin = parts == 1 ? 0 : set_begin(s, number),
+                      end = parts == 1 ? number : set_begin(s + 1, number);
+    for (std::size_t k = begin; k < end; ++k) all.push_back(turn * on_spiral(k - begin, end - begin));
+  }
   return all;
+}
+
+std::optional<double> error_of_mean(const std::vector<double>& values) {
+  if (values.size() < 4 * sets) return {};
+  double all = 0, squares = 0;
+  for (int s = 0; s < sets; ++s) {
+    const std::size_t begin = set_begin(s, values.size()), end = set_begin(s + 1, values.size());
+    double mean = 0;
+    for (std::size_t k = begin; k < end; ++k) mean += values[k] / static_cast<double>(end - begin);
+    all += mean / sets;
+    squares += mean * mean / sets;
+  }
+  if (!(all > 0)) return {};
+  return std::sqrt(std::max(squares - all * all, 0.0) / (sets - 1)) / all;
 }
 
 Peak LoadedBody::peak(const Vector5& strain) const {
@@ -63,9 +102,10 @@ struct Rest {
 std::vector<Rest> settled_starts(const LoadedBody& body, const Eigen::Matrix3d& gradient, const StrainingChoice& choice,
                                  int first, int end) {
   const TurningBody turning = body.turning(1e-10);
+  const std::vector<Quaternion> starts = even_orientations(choice.seed, choice.starts);
   std::vector<Rest> all;
   for (int k = first; k < end; ++k) {
-    Rest rest{random_orientation(choice.seed, static_cast<std::uint32_t>(k))};
+    Rest rest{starts[static_cast<std::size_t>(k)]};
     rest.settled = settle(turning, gradient, choice.longest_strain, rest.orientation);
     all.push_back(rest);
   }
@@ -221,6 +261,7 @@ ShearResult shear(const LoadedBody& body, const ShearChoice& choice, Keeping kee
   for (int k = 0; k <= samples; ++k) times.push_back(choice.strain * k / samples);
   const Vector3 axis = long_axis(body.response);
   const auto count = static_cast<double>(choice.starts.size());
+  std::vector<double> peaks;
   for (const Quaternion& start : choice.starts) {
     result.orbits.push_back(keeping.value(
         result.orbits.size(),
@@ -230,11 +271,13 @@ ShearResult shear(const LoadedBody& body, const ShearChoice& choice, Keeping kee
         },
         [](SavedFields& f, Orbit& orbit) { orbit.fields(f); }));
     const Orbit& orbit = result.orbits.back();
+    peaks.push_back(orbit.peak.tension);
     result.mean_peak_tension += orbit.peak.tension / count;
     result.mean_tension += orbit.mean_max_tension / count;
     result.mean_tumbling_time += tumbling_time(orbit, axis) / count;
     if (orbit.peak.use > result.orbits[result.worst_orbit].peak.use) result.worst_orbit = result.orbits.size() - 1;
   }
+  result.mean_error = error_of_mean(peaks);
   return result;
 }
 

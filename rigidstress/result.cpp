@@ -85,6 +85,9 @@ void add_shear(Report& report, const Numbers& n, const ShearResult& r) {
     use += orbit.peak.use / static_cast<double>(r.orbits.size());
   }
   report.result("shear.n_max_orbit", r.mean_peak_tension / n.force);
+  report.error("shear_n_max_orbit_relative", r.mean_error,
+               r.mean_error ? "standard error of the mean over the orbits, from four sets of them"
+                            : "not known: fewer than 16 orbits");
   report.result("shear.n_max_time_mean", r.mean_tension / n.force);
   report.result("shear.mean_tumbling_time", r.mean_tumbling_time);
   n.add_critical(report, "shear", "", use);
@@ -243,6 +246,9 @@ std::string result_text(const Analysis& a, const StressScene& scene) {
     text += fmt::format("  {}\n", row.device);
   }
   if (const auto& r = n.body.shear) {
+    if (r->mean_error)
+      text +=
+          fmt::format("{:<34}{:8.1f} %, standard error\n", "shear, mean over orbits: known to", 100 * *r->mean_error);
     text += fmt::format("{:<34}{:8.3f}\n", "shear, mean over time", r->mean_tension / n.force);
     text += fmt::format("{:<34}{:8.2f} 1/gamma_dot\n", "shear, mean tumbling time", r->mean_tumbling_time);
   }

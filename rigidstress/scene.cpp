@@ -77,14 +77,15 @@ const ParameterTable& stress_parameters() {
         P::real("largest_history_step", "", "A longer strain between two rows of the history is refused")
             .above(0)
             .by_default(1),
-        P::integer("starts", "Elongation: random orientations from which the agglomerate settles")
+        P::integer("starts", "Elongation: evenly spread orientations from which the agglomerate settles")
             .at_least(1)
             .at_most(100000)
             .by_default(64),
-        P::integer("orbits", "Shear and history: random orientations to start from")
+        P::integer("orbits",
+                   "Shear and history: evenly spread orientations to start from; 128 give the mean over all to 2 %")
             .at_least(1)
             .at_most(100000)
-            .by_default(10),
+            .by_default(128),
         P::list("orientation", "",
                 "Shear and history: one orbit from here instead, a quaternion [w, x, y, z] that turns the axes of the "
                 "file into those of the flow; [1, 0, 0, 0] as it lies")
@@ -113,8 +114,7 @@ Method method_named(const std::string& name) {
 }
 
 std::vector<Quaternion> starts(const Scene& scene, std::uint64_t seed) {
-  if (!scene.is_set("flow.orientation"))
-    return random_orientations(seed, static_cast<int>(scene.integer("flow.orbits")));
+  if (!scene.is_set("flow.orientation")) return even_orientations(seed, static_cast<int>(scene.integer("flow.orbits")));
   try {
     const std::vector<double>& q = scene.list("flow.orientation");
     if (q.size() != 4) throw std::invalid_argument(fmt::format("{} numbers, four are needed", q.size()));
