@@ -29,7 +29,8 @@ std::string difference(const std::string& output, const Provenance& now, const s
       text("parent_sha256") != now.parent_sha256 && fs::weakly_canonical(fs::absolute(output).parent_path() / parent) !=
                                                         fs::weakly_canonical(fs::absolute(now.parent)))
     return "the result of another granule, " + parent;
-  const auto other = differences(settings_in(file.dataset("/parameters/resolved").read_text()), settings_in(resolved));
+  auto other = differences(settings_in(file.dataset("/parameters/resolved").read_text()), settings_in(resolved));
+  std::erase_if(other, [](const auto& d) { return d.key == "output.checkpoint_interval"; });  // no part of a result
   std::string all;
   constexpr std::size_t shown = 3;
   for (std::size_t k = 0; k < std::min(other.size(), shown); ++k)

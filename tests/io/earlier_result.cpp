@@ -41,6 +41,8 @@ TEST(EarlierResult, TheSameSceneMayRunAgain) {
   EXPECT_EQ(refusal(folder / "a.h5", by("dryer")), "");
   // The same values in other words.
   EXPECT_EQ(refusal(folder / "a.h5", by("dryer"), "run.seed = 1\n[droplet]\nradius = 215e-9\n"), "");
+  // When the run was saved on the way is no part of the result.
+  EXPECT_EQ(refusal(folder / "a.h5", by("dryer"), scene + std::string("[output]\ncheckpoint_interval = 5\n")), "");
   std::ofstream(folder / "empty.h5");
   EXPECT_EQ(refusal(folder / "empty.h5", by("dryer")), "");
 }
