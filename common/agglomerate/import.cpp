@@ -12,10 +12,11 @@ namespace {
 
 std::vector<double> radii(const PointList& points, const ImportOptions& options) {
   if (points.radius.empty() && !options.radius) {
-    throw PointListError(points.file + ": has no radius column: give the radius of all spheres (--radius)");
+    throw PointListError(points.file +
+                         ": has no column of radii or diameters: give the radius of all spheres (--radius)");
   }
   if (!points.radius.empty() && options.radius) {
-    throw PointListError(points.file + ": has a radius column: leave --radius out");
+    throw PointListError(points.file + ": has radii of its own: leave --radius out");
   }
   if (options.radius) return std::vector<double>(points.position.size(), *options.radius);
   std::vector<double> radius = points.radius;

@@ -15,54 +15,59 @@ using namespace text;
 
 namespace {
 
-double positive(const Lines& lines, std::string_view word, const std::string& column) {
-  const double value = lines.number_of(word, column);
-  if (!(value > 0)) throw lines.error(column + ": expected a radius > 0, found " + quoted(word));
-  return value;
-}
-
-// Where x, y, z and, if there is one, the radius stand in a line of `width` words.
+// Where x, y, z and, if there is one, the radius or the diameter stand in a line of `width` words.
 struct Columns {
   std::size_t x = 0, y = 0, z = 0, width = 0;
-  std::optional<std::size_t> radius;
+  std::optional<std::size_t> radius, diameter;
 };
 
-// word(column) of a line.
-template <class Word>
-void take(PointList& list, const Lines& lines, Word word, const Columns& c) {
-  list.position.push_back(
-      {lines.number_of(word(c.x), "x"), lines.number_of(word(c.y), "y"), lines.number_of(word(c.z), "z")});
-  if (c.radius) list.radius.push_back(positive(lines, word(*c.radius), "radius"));
+// number(column, name) and word(column) of a line.
+template <class Number, class Word>
+void take(PointList& list, const Lines& lines, Number number, Word word, const Columns& c) {
+  list.position.push_back({number(c.x, "x"), number(c.y, "y"), number(c.z, "z")});
+  if (c.radius || c.diameter) {
+    const std::size_t column = c.radius ? *c.radius : *c.diameter;
+    const std::string name = c.radius ? "radius" : "diameter";
+    const double value = number(column, name);
+    if (!(value > 0)) throw lines.error(name + ": expected a " + name + " > 0, found " + quoted(word(column)));
+    list.radius.push_back(c.radius ? value : 0.5 * value);
+  }
   list.line.push_back(lines.number());
 }
+
+constexpr const char* csv_header = "x,y,z[,radius or diameter]";
 
 Columns csv_columns(const Csv& csv) {
   const Lines& lines = csv.lines();
   const Words& names = csv.names();
-  std::optional<std::size_t> x, y, z, radius;
+  const std::string expected = std::string("expected a header of the columns ") + csv_header + ", found ";
+  std::optional<std::size_t> x, y, z, radius, diameter;
   for (std::size_t k = 0; k < names.size(); ++k) {
     const std::string name = lower(names[k]);
-    std::optional<std::size_t>* column = name == "x"        ? &x
-                                         : name == "y"      ? &y
-                                         : name == "z"      ? &z
-                                         : name == "radius" ? &radius
-                                                            : nullptr;
+    std::optional<std::size_t>* column = name == "x"                         ? &x
+                                         : name == "y"                       ? &y
+                                         : name == "z"                       ? &z
+                                         : name == "radius"                  ? &radius
+                                         : name == "diameter" || name == "d" ? &diameter
+                                                                             : nullptr;
     if (column == nullptr)
-      throw lines.error("expected a header of the columns x,y,z[,radius], found the column " + quoted(names[k]));
+      throw lines.error(expected + "the column " + quoted(names[k]) +
+                        (name == "r" ? " (radius or diameter? Write the word)" : ""));
     if (*column) throw lines.error("the column " + name + " stands twice in the header");
     *column = k;
   }
   for (const auto& [column, name] : {std::pair{x, "x"}, {y, "y"}, {z, "z"}}) {
-    if (!column) throw lines.error(std::string("expected a header of the columns x,y,z[,radius], found no ") + name);
+    if (!column) throw lines.error(expected + "no " + name);
   }
-  return {*x, *y, *z, names.size(), radius};
+  if (radius && diameter) throw lines.error("both a radius and a diameter stand in the header: leave one out");
+  return {*x, *y, *z, names.size(), radius, diameter};
 }
 
 // The columns that an extended XYZ comment line declares; those of plain XYZ if it declares none.
 Columns xyz_columns(const Lines& lines, std::string_view comment) {
   const std::string_view key = "properties=";
   const std::size_t begin = lower(comment).find(key);
-  if (begin == std::string::npos) return {1, 2, 3, 0, std::nullopt};
+  if (begin == std::string::npos) return {1, 2, 3, 0, {}, {}};
   std::string_view value = comment.substr(begin + key.size());
   const bool in_quotes = value.starts_with('"');
   if (in_quotes) value.remove_prefix(1);
@@ -130,8 +135,10 @@ PointList xyz_frame(Lines& lines, std::size_t count) {
                                   : std::string("a label and x y z")) +
                         ", found " + quoted(trimmed(*line)));
     }
+    const auto word = [&](std::size_t column) { return words[column]; };
     take(
-        list, lines, [&](std::size_t column) { return words[column]; }, columns);
+        list, lines, [&](std::size_t column, const std::string& name) { return lines.number_of(word(column), name); },
+        word, columns);
   }
   return list;
 }
@@ -139,12 +146,13 @@ PointList xyz_frame(Lines& lines, std::size_t count) {
 }  // namespace
 
 PointList parse_csv(std::string_view text, const std::string& file) {
-  Csv csv(text, file, "x,y,z[,radius]");
+  Csv csv(text, file, csv_header);
   const Columns columns = csv_columns(csv);
   PointList list;
   while (csv.next())
     take(
-        list, csv.lines(), [&](std::size_t column) { return csv[column]; }, columns);
+        list, csv.lines(), [&](std::size_t column, const std::string& name) { return csv.number(column, name); },
+        [&](std::size_t column) { return csv[column]; }, columns);
   if (list.position.empty()) throw csv.lines().error("expected at least one sphere below the header, found none");
   list.file = file;
   return list;

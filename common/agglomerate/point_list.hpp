@@ -21,13 +21,13 @@ struct PointListOpenError : PointListError {
 struct PointList {
   std::string file;               // as messages call it
   std::vector<Vector3> position;  // in the file's unit
-  std::vector<double> radius;     // in the file's unit; empty if the file has none
+  std::vector<double> radius;     // in the file's unit, half of a diameter; empty if the file has none
   std::vector<int> line;          // where each sphere stands, from 1
   int frames = 1;                 // of an XYZ file with several the last is taken
 };
 
-// Comma-separated values. The first line that is not empty and not a comment (#) is the header: x, y, z and, if wanted,
-// radius, in any order and case.
+// A table as text::Csv reads it. The first line that is not empty and not a comment (#) is the header: x, y, z and, if
+// wanted, radius or diameter (also called d), in any order and case.
 PointList parse_csv(std::string_view text, const std::string& file);
 
 // Number of spheres, a comment line, then for each sphere a label and x y z. If the comment line is that of extended

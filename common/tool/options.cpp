@@ -137,11 +137,11 @@ void declare(CLI::App& app, Raw& raw) {
   Verb(app, "import", "make an agglomerate from sphere centres",
        "Examples:\n"
        "  agglomerate import packing.csv --radius 10 -o packing.h5\n"
-       "      packing.csv begins with the line x,y,z; lengths are in nm\n"
+       "      packing.csv begins with the line x,y,z; lengths are in nm; semicolons and decimal commas are understood\n"
        "  agglomerate import cluster.xyz --unit um --radius 0.1 --contact-tolerance 0.05 -o cluster.h5\n"
        "Pairs with a gap below the tolerance become contacts, and these are closed: the spheres are moved until\n"
        "every contact is free of force. A pair that overlaps by more than the tolerance beyond that is an error.")
-      .files(raw, "FILE.csv|.xyz", "CSV with a header x,y,z[,radius], XYZ or extended XYZ")
+      .files(raw, "FILE.csv|.xyz", "table with a header x,y,z[,radius or diameter], XYZ or extended XYZ")
       .text(raw.output, "-o,--output", "OUT.h5", "where the agglomerate goes", true)
       .text(raw.unit, "--unit", "nm|um|m", "of the lengths in the file and of --radius, default nm")
       .text(raw.radius, "--radius", "R", "of all spheres, if the file has no radii")

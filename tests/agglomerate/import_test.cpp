@@ -79,9 +79,9 @@ TEST(Import, ManyOverlapsAreNotAllListed) {
 
 TEST(Import, RadiusComesFromTheFileOrTheOptionButNotFromBothOrNeither) {
   EXPECT_EQ(complaint(parse_csv("x,y,z\n0,0,0\n", "p.csv"), {}),
-            "p.csv: has no radius column: give the radius of all spheres (--radius)");
+            "p.csv: has no column of radii or diameters: give the radius of all spheres (--radius)");
   EXPECT_EQ(complaint(parse_csv("x,y,z,radius\n0,0,0,1\n", "p.csv"), of_radius(a)),
-            "p.csv: has a radius column: leave --radius out");
+            "p.csv: has radii of its own: leave --radius out");
 }
 
 TEST(Import, AForgottenUnitIsNoticed) {

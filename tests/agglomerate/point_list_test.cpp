@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 
 namespace crumble {
@@ -31,6 +32,25 @@ TEST(PointList, CsvMayHaveQuotesAndEmptyRowsAsSpreadsheetsWriteThem) {
   ASSERT_EQ(p.position.size(), 2u);
   EXPECT_EQ(p.position[0], Vector3(1, 2, 3));
   EXPECT_EQ(p.line, (std::vector<int>{2, 4}));
+}
+
+TEST(PointList, SemicolonsWithDecimalCommasAndADiameterAreReadAsTheSpreadsheetMeansThem) {
+  for (const char separator : {';', '\t'}) {
+    std::string text = "\xEF\xBB\xBFx;y;z;D\r\n1,5;-0,25;3;20\r\n\"2,5\";1,234;1e1;2,05e1\r\n;;;\r\n";
+    std::replace(text.begin(), text.end(), ';', separator);
+    const PointList p = parse_csv(text, "points");
+    ASSERT_EQ(p.position.size(), 2u);
+    EXPECT_EQ(p.position[0], Vector3(1.5, -0.25, 3));
+    EXPECT_EQ(p.position[1], Vector3(2.5, 1.234, 10));  // 1.234, as 1,5 and others are no thousands
+    EXPECT_EQ(p.radius, (std::vector<double>{10, 10.25}));
+  }
+}
+
+TEST(PointList, SemicolonsWithDecimalPointsAreReadToo) {
+  const PointList p = parse_csv("x;y;z;diameter\n1.234;2.5;3;4\n", "points");
+  ASSERT_EQ(p.position.size(), 1u);
+  EXPECT_EQ(p.position[0], Vector3(1.234, 2.5, 3));
+  EXPECT_EQ(p.radius, std::vector<double>{2});
 }
 
 TEST(PointList, CsvWithoutRadiiHasNone) {
@@ -69,20 +89,37 @@ struct Case {
 
 TEST(PointList, EveryMalformedTextHasItsOwnMessageWithFileAndLine) {
   const Case cases[] = {
-      {parse_csv, "", "points:1: expected a header x,y,z[,radius], found no text"},
-      {parse_csv, "# nothing\n\n", "points:2: expected a header x,y,z[,radius], found no text"},
-      {parse_csv, "1,2,3\n", "points:1: expected a header of the columns x,y,z[,radius], found the column '1'"},
-      {parse_csv, "x;y;z\n",
-       "points:1: expected a header x,y,z[,radius], found 'x;y;z' (separate columns by commas, and write numbers with "
-       "points)"},
+      {parse_csv, "", "points:1: expected a header x,y,z[,radius or diameter], found no text"},
+      {parse_csv, "# nothing\n\n", "points:2: expected a header x,y,z[,radius or diameter], found no text"},
+      {parse_csv, "1,2,3\n",
+       "points:1: expected a header of the columns x,y,z[,radius or diameter], found the column '1'"},
+      {parse_csv, "x;y;z,radius\n",
+       "points:1: expected a header of the columns x,y,z[,radius or diameter], found the column 'z,radius'"},
+      {parse_csv, "x;y;z\n1,2,3\n", "points:2: expected 3 values as in the header, found 1"},
+      {parse_csv, "x;y;z\n1,5;2;3\n4;5;6.5\n",
+       "points: '1,5' on line 2 has a comma and '6.5' on line 3 a point: write all numbers with the same decimal sign, "
+       "and without signs between thousands"},
+      {parse_csv, "x;y;z\n1.234,5;2,5;3\n", "points:2: x: expected a number, found '1.234,5'"},
+      {parse_csv, "x\ty\tz\n1,234\t2\t-123,456\n",
+       "points: '1,234' on line 2 may be a thousand or have a decimal comma, and no other number says which: write "
+       "numbers "
+       "with points"},
+      {parse_csv, "x;y;z;D\n1,5;2;3;0,0\n", "points:2: diameter: expected a diameter > 0, found '0,0'"},
+      {parse_csv, "x,y,z,r\n",
+       "points:1: expected a header of the columns x,y,z[,radius or diameter], found the column 'r' (radius or "
+       "diameter? "
+       "Write the word)"},
+      {parse_csv, "x,y,z,radius,D\n", "points:1: both a radius and a diameter stand in the header: leave one out"},
+      {parse_csv, "x,y,z,D,diameter\n", "points:1: the column diameter stands twice in the header"},
       {parse_csv, "x,y,z\n1,5,2,5,3,5\n",
-       "points:2: expected 3 values as in the header, found 6 (write numbers with points, not commas)"},
+       "points:2: expected 3 values as in the header, found 6 (write numbers with points, or separate columns by "
+       "semicolons)"},
       {parse_csv, std::string("\xFF\xFEx\0,\0", 6),
        "points: is UTF-16, as spreadsheets write \"Unicode text\": save it as UTF-8"},
       {parse_csv, std::string("x,y,z\n1,2,\0", 12), "points: holds zero bytes, so it is no text"},
       {parse_csv, "x,y,z\r1,2,3\r",
        "points: ends its lines with CR alone, as old programs do: save it with LF or CRLF"},
-      {parse_csv, "x,y,radius\n", "points:1: expected a header of the columns x,y,z[,radius], found no z"},
+      {parse_csv, "x,y,radius\n", "points:1: expected a header of the columns x,y,z[,radius or diameter], found no z"},
       {parse_csv, "x,y,z,x\n", "points:1: the column x stands twice in the header"},
       {parse_csv, "x,y,z\n", "points:1: expected at least one sphere below the header, found none"},
       {parse_csv, "x,y,z\n1,2\n", "points:2: expected 3 values as in the header, found 2"},
