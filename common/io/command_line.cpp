@@ -83,7 +83,7 @@ std::string usage(const ProgramDescription& program) {
 
 class UsageFormatter : public CLI::Formatter {
  public:
-  explicit UsageFormatter(std::string usage) : usage_(std::move(usage)) { column_width(30); }
+  explicit UsageFormatter(std::string usage) : usage_(std::move(usage)) { column_width(32); }
   std::string make_usage(const CLI::App*, std::string) const override { return "Usage: " + usage_ + "\n"; }
 
  private:
