@@ -8,6 +8,9 @@ import argparse
 import contextlib
 import os
 import pathlib
+import sys
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "python"))  # the module crumble; installed it is found anyway
 
 
 def parser(doc, writes=None, metavar="FILE", required=True):

@@ -7,9 +7,8 @@ to the contacts. Beside BREAKUP.h5 stands its report BREAKUP.json and, if there 
 """
 import json
 
-import h5py
-
 import arguments
+import crumble
 from table import write_csv
 
 KINDS = ["slips", "twists", "rolls", "breaks", "made", "fragment lost"]
@@ -20,15 +19,12 @@ COLUMNS = {"flow_stress": "flow_stress_pa", "radius_of_gyration": "radius_of_gyr
 
 
 def tables(path, stem):
-    with h5py.File(path) as file:
-        series = [file[f"series/{name}/value"][:] for name in COLUMNS]
-        particles = len(file["particles/all/radius"])
-        contacts = series[list(COLUMNS).index("contacts")]
-        rows = [[f"{v:.7g}" for v in (*row, 2 * c / particles)] for row, c in zip(zip(*series), contacts)]
-        write_csv(stem.with_name(stem.name + "-course.csv"), [*COLUMNS.values(), "coordination"], rows)
-        events = zip(file["events/time"][:], file["events/stress"][:], file["events/kind"][:], file["events/pair"][:])
-        write_csv(stem.with_name(stem.name + "-events.csv"), ["time_s", "flow_stress_pa", "what", "i", "j"],
-                  [[f"{t:.9g}", f"{s:.7g}", KINDS[kind], i, j] for t, s, kind, (i, j) in events])
+    breakup = crumble.read(path)
+    series, events = breakup.series, breakup.events
+    rows = [[f"{v:.7g}" for v in row] for row in zip(*(series[name] for name in COLUMNS), 2 * series.contacts / breakup.number)]
+    write_csv(stem.with_name(stem.name + "-course.csv"), [*COLUMNS.values(), "coordination"], rows)
+    write_csv(stem.with_name(stem.name + "-events.csv"), ["time_s", "flow_stress_pa", "what", "i", "j"],
+              [[f"{t:.9g}", f"{s:.7g}", KINDS[kind], i, j] for t, s, kind, (i, j) in zip(events.time, events.stress, events.kind, events.pair)])
 
 
 def command_line():

@@ -6,18 +6,17 @@ Beside FILE.svg is written FILE-NAME.csv for each group.
     distribution.py hollow=hollow-1.h5,hollow-2.h5 compact=compact-1.h5 -o figure3.svg
 """
 
-import h5py
 import numpy
 
 import arguments
+import crumble
 import published
 from figure import LINES, pyplot, save
 from table import write_csv
 
 
 def radii(name):
-    with h5py.File(name, "r") as file:
-        position = file["/particles/all/position/value"][-1]
+    position = crumble.read(name).particles().position
     return numpy.sort(numpy.linalg.norm(position - position.mean(axis=0), axis=1))
 
 

@@ -7,10 +7,8 @@ Radius, material, bonds, hydrodynamics and flow are those of its file.
 import json
 import sys
 
-import h5py
-
 import arguments
-import scene
+import crumble
 
 TAKEN = {"particle": ("radius", "fragments", "largest_gap"), "material": None, "fluid": ("viscosity",),
          "contact": ("rolling_stiffness_factor",), "hydrodynamics": None}
@@ -38,8 +36,7 @@ def command_line():
 
 
 def main(options):
-    with h5py.File(options.breakup) as breakup:
-        text = rigid(scene.resolved(breakup))
+    text = rigid(crumble.read(options.breakup).scene)
     with arguments.printing_to(options.out):
         print(text, end="")
 

@@ -11,9 +11,8 @@ import json
 import math
 import statistics
 
-import h5py
-
 import arguments
+import crumble
 import published
 from interval import half_width
 from table import write_csv, write_records
@@ -55,10 +54,9 @@ def unit(result):
 
 def courses(name, path, result):
     """Rows of fig8.csv and fig9.csv of one agglomerate."""
-    with h5py.File(path.with_suffix(".h5")) as stress:
-        settled, shear = stress["flows/elongation"], stress["flows/shear"]
-        contacts = zip(settled["radial_position"][:], settled["normal_force"][:] / unit(result))
-        instants = zip(shear["time"][:], shear["max_tension"][:] / unit(result))
+    stress = crumble.read(path.with_suffix(".h5"))
+    contacts = zip(stress["flows/elongation/radial_position"], stress["flows/elongation/normal_force"] / unit(result))
+    instants = zip(stress["flows/shear/time"], stress["flows/shear/max_tension"] / unit(result))
     return ([[name, path.stem, f"{r:.2f}", f"{n:.5g}"] for r, n in contacts],
             [[name, path.stem, f"{t:.5g}", f"{n:.5g}"] for t, n in instants])
 
