@@ -73,12 +73,13 @@ exit ${code:-0}
     def test_packages_of_a_section_are_for_who_asks_for_it(self):
         self.stand_in("dpkg-query", '#!/bin/bash\nshift 3\necho "$*" >> "$LOG"\nprintf "%s=installed\\n" "$@"\n')
         asked = {}
-        for section in ((), ("portability",)):
+        for section in ((), ("portability",), ("package",)):
             self.forget()
             done = self.run_in_sandbox("pipeline/packages.sh", *section)
             self.assertEqual((done.returncode, done.stderr), (0, ""))
             asked[section] = set(self.log.read_text().split())
         self.assertEqual(asked["portability",] - asked[()], {"clang", "libomp-dev"})
+        self.assertEqual(asked["package",] - asked[()], {"debootstrap", "dpkg-dev", "file", "lintian"})
         self.assertLessEqual({"g++", "libeigen3-dev", "povray"}, asked[()])
         self.assertFalse([name for name in asked["portability",] if "[" in name or "#" in name])
 

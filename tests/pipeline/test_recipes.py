@@ -21,7 +21,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BUILD = os.environ.get("CRUMBLE_BUILD", ROOT / "build/release")
-MANUALS = ["README.md", "dryer/README.md", "breaker/README.md", "rigidstress/README.md", "common/io/README.md"]
+MANUALS = ["README.md", "dryer/README.md", "breaker/README.md", "rigidstress/README.md", "common/io/README.md", "pipeline/TUTORIAL.md"]
 PROGRAM = re.compile(r"build/release/bin/(dryer|breaker|rigidstress)\b")
 BLOCK = re.compile(r"(?ms)(?:^<!-- (run with|not run): ([^\n]*?) -->\n+)?^```(sh|toml|python|text)\n(.*?)^```$")
 # With the unit of a time, which is min instead of s on a slow machine.
@@ -43,7 +43,8 @@ class Manual:
         for name in ("pipeline", "build"):
             (folder / name).mkdir()
         (folder / "build/release").symlink_to(BUILD)
-        (folder / "pipeline/scenes").symlink_to(ROOT / "pipeline/scenes")
+        for name in ("scenes", "python"):
+            (folder / "pipeline" / name).symlink_to(ROOT / "pipeline" / name)
         (folder / "data").symlink_to(ROOT / "data")
         self.targets = set(re.findall(r"(?m)^([a-z0-9-]+):", (ROOT / "pipeline/Makefile").read_text(encoding="utf-8")))
 
@@ -72,7 +73,7 @@ class Manual:
             return subprocess.CompletedProcess(command, 0 if known else 2, "" if known else "no such target\n")
         if PROGRAM.search(command):
             command += {"run with": f" {words}", "not run": " --check", "": ""}[way]
-        environment = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
+        environment = {**os.environ, "CRUMBLE_BIN": str(pathlib.Path(BUILD) / "bin"), "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
         return subprocess.run(["bash", "-euo", "pipefail", "-c", command], cwd=self.folder, env=environment, text=True,
                               stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
 
