@@ -77,6 +77,8 @@ def strip(path, out):
 def course(path, out):
     with h5py.File(path) as file:
         series = {name: file[f"series/{name}/value"][:] for name in file["series"]}
+        critical = file["breakup/critical_stress"][()] if "breakup/critical_stress" in file else None
+        error = file["errors/critical_stress"][()] if "errors/critical_stress" in file else 0.0
     stress, size = series["flow_stress"], series["radius_of_gyration"][0]
     figure, (shape, contacts, limits) = pyplot.subplots(1, 3, figsize=(12, 3.6), constrained_layout=True)
     for name, label, colour, dashes in (("semi_axis_largest", "largest semi-axis", ORANGE, "-"),
@@ -92,6 +94,9 @@ def course(path, out):
         limits.plot(stress, series[name], dashes, color=colour, label=f"{name} contacts")
     limits.set(ylabel="at their limit", ylim=(0, None))
     for axes in (shape, contacts, limits):
+        if critical is not None:
+            axes.axvline(critical, color=BLACK, linewidth=0.6, zorder=0)
+            axes.axvspan(critical * (1 - error), critical * (1 + error), color=BLACK, alpha=0.2, linewidth=0, zorder=0)
         axes.set(xlabel="flow stress, Pa", xlim=(0, None))
         axes.legend(frameon=False, fontsize=8)
     save(figure, out)

@@ -5,19 +5,18 @@ Tables and figures that other scripts wrote are taken from the folder of FILE.ht
     paper.py hollow=hollow-1.json,hollow-2.json adhesive=adhesive-1.json --broken hollow=breakup/hollow-1.json -o paper.html
 """
 
-import base64
 import csv
 import html
 import json
 import math
 import pathlib
-import re
 import statistics
 
 import arguments
 import breakups
 import published
 from interval import half_width
+from page import as_html, figure, missing, write
 
 TITLES = {name: row["title"] for name, row in published.GRANULES.items()} | {"adhesive": "bond of 42 kT, Pe = 10, N = 85"}
 # Columns of strength/table.csv as the page names them.
@@ -25,11 +24,6 @@ STRENGTH = {"population": "granules", "agglomerates": "n", "coordination": "coor
             "half_width": "±", "paper_n_max": "paper", "error_percent": "error of one, %", "critical_stress_pa": "breaks at, Pa",
             "half_width_pa": "±", "paper_pa": "paper"}
 STORED = pathlib.Path(__file__).parent.parent / "verify" / "brownian.json"
-
-STYLE = """body{font:16px/1.5 system-ui,sans-serif;max-width:62rem;margin:2rem auto;padding:0 1rem;color:#222}
-table{border-collapse:collapse;margin:1rem 0;font-size:.85rem}td,th{border-bottom:1px solid #ccc;padding:.25rem .6rem;text-align:right}
-th{border-bottom:2px solid #444}td:first-child,th:first-child{text-align:left}img,svg{max-width:100%;height:auto}
-figure{margin:1rem 0}figcaption{font-size:.85rem;color:#444}.missing{color:#a00}"""
 
 
 def load(path):
@@ -51,11 +45,6 @@ def stored_error(row):
     return f"d_c {100 * d_c['difference']:+.1f} ± {100 * d_c['interval_95']:.1f} % of full stiffness (stored)"
 
 
-def as_html(head, rows):
-    cell = lambda tag, values: "<tr>" + "".join(f"<{tag}>{html.escape(str(v))}</{tag}>" for v in values) + "</tr>"
-    return "<table>" + cell("th", head) + "".join(cell("td", row) for row in rows) + "</table>"
-
-
 def from_markdown(path):
     """The table of a .md file, and the lines after it."""
     if not path.exists():
@@ -71,24 +60,6 @@ def from_csv(path):
         return []
     with path.open(newline="", encoding="utf-8") as file:
         return list(csv.DictReader(file))
-
-
-def missing(path):
-    return f'<p class="missing">{html.escape(path.name)} was not made in this run.</p>'
-
-
-def figure(path, caption):
-    if not path.exists():
-        return missing(path)
-    if path.suffix == ".svg":
-        # Ids must differ between the figures of a page.
-        text = re.sub(r"^.*?(?=<svg)", "", path.read_text(), flags=re.S)
-        tag = re.sub(r"\W", "", path.stem) + "-"
-        text = re.sub(r'(id="|url\(#|href="#)', lambda m: m.group(1) + tag, text)
-        body = text
-    else:
-        body = f'<img alt="" src="data:image/png;base64,{base64.b64encode(path.read_bytes()).decode()}">'
-    return f"<figure>{body}<figcaption>{caption}</figcaption></figure>"
 
 
 class Page:
@@ -210,11 +181,7 @@ def main(options):
     page.breakups()
     page.strength()
     page.effort()
-    body = "\n".join(page.parts)
-    text = f'<!DOCTYPE html><html lang="en"><head><meta charset="utf-8"><title>Crumble: the paper</title><style>{STYLE}</style></head><body>{body}</body></html>\n'
-    temporary = out.with_suffix(".tmp")
-    temporary.write_text(text)
-    temporary.rename(out)
+    write(out, "Crumble: the paper", page.parts)
 
 
 if __name__ == "__main__":

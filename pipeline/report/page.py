@@ -1,0 +1,43 @@
+"""What the pages share: their style, tables, figures within the page, one file that is whole or absent."""
+
+import base64
+import html
+import os
+import re
+
+STYLE = """body{font:16px/1.5 system-ui,sans-serif;max-width:62rem;margin:2rem auto;padding:0 1rem;color:#222;background:#fff}
+table{border-collapse:collapse;margin:1rem 0;font-size:.85rem}td,th{border-bottom:1px solid #ccc;padding:.25rem .6rem;text-align:right}
+th{border-bottom:2px solid #444}td:first-child,th:first-child{text-align:left}img,svg{max-width:100%;height:auto}
+figure{margin:1rem 0}figcaption{font-size:.85rem;color:#444}.missing{color:#a00}"""
+
+
+def as_html(head, rows):
+    cell = lambda tag, values: "<tr>" + "".join(f"<{tag}>{html.escape(str(v))}</{tag}>" for v in values) + "</tr>"
+    return "<table>" + cell("th", head) + "".join(cell("td", row) for row in rows) + "</table>"
+
+
+def missing(path):
+    return f'<p class="missing">{html.escape(path.name)} was not made in this run.</p>'
+
+
+def figure(path, caption):
+    if not path.exists():
+        return missing(path)
+    if path.suffix == ".svg":
+        # Ids must differ between the figures of a page.
+        text = re.sub(r"^.*?(?=<svg)", "", path.read_text(), flags=re.S)
+        tag = re.sub(r"\W", "", path.stem) + "-"
+        text = re.sub(r'(id="|url\(#|href="#)', lambda m: m.group(1) + tag, text)
+        body = text
+    else:
+        body = f'<img alt="" src="data:image/png;base64,{base64.b64encode(path.read_bytes()).decode()}">'
+    return f"<figure>{body}<figcaption>{caption}</figcaption></figure>"
+
+
+def write(out, title, parts, style=""):
+    body = "\n".join(parts)
+    text = ('<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width,initial-scale=1">'
+            f'<title>{html.escape(title)}</title><style>{STYLE}{style}</style></head><body>\n{body}\n</body></html>\n')
+    temporary = out.with_suffix(".tmp")
+    temporary.write_text(text, encoding="utf-8")
+    os.replace(temporary, out)

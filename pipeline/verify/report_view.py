@@ -1,0 +1,176 @@
+"""The pages of `make -C pipeline report` in headless Chromium: they load without a complaint, draw, answer to controls and keys, fit a phone, print.
+
+Pages of a drying, a breakup, loads in a rigid granule, an imported agglomerate, of all four together, of ten thousand spheres, and one without
+three.js. Ends with 1 if a claim does not hold; prints how long a draw of ten thousand takes with software rendering.
+
+    report_view.py -o results/verify
+"""
+
+import pathlib
+import subprocess
+import sys
+import time
+
+PIPELINE = pathlib.Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(PIPELINE / "report"))
+import arguments
+import numpy
+import report
+from browser import Browser, there
+from table import write_csv
+
+ROOT = PIPELINE.parent
+SAMPLES = ROOT / "data/samples"
+PICTURE = "(() => { const c = document.getElementById('canvas'); return c.toDataURL(); })()"
+# Share of the pixels that are not white, and how many colours there are.
+INK = """(() => { const c = document.getElementById('canvas'), d = document.createElement('canvas'); d.width = c.width; d.height = c.height;
+const x = d.getContext('2d'); x.drawImage(c, 0, 0); const p = x.getImageData(0, 0, c.width, c.height).data; let ink = 0; const seen = new Set();
+for (let k = 0; k < p.length; k += 4) if (p[k] + p[k + 1] + p[k + 2] < 750) { ++ink; seen.add(p[k] << 16 | p[k + 1] << 8 | p[k + 2]); }
+return [4 * ink / p.length, seen.size]; })()"""
+
+
+class Claims:
+    def __init__(self):
+        self.rows, self.held = [], True
+
+    def __call__(self, page, claim, holds, found=""):
+        self.held &= bool(holds)
+        self.rows.append([page, claim, "holds" if holds else "FAILS", found])
+        print(f"{'holds' if holds else 'FAILS':6} {page:12} {claim} {found}", flush=True)
+
+
+def settled(browser):
+    """After the draw that was asked for."""
+    browser.js("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
+
+
+def picture(browser):
+    settled(browser)
+    return browser.js(PICTURE)
+
+
+def set_value(browser, name, value, event):
+    browser.js(f"(() => {{ const e = document.getElementById('{name}'); if (e.type === 'checkbox') e.checked = {str(value).lower()}; "
+               f"else e.value = {value!r}; e.dispatchEvent(new Event('{event}', {{bubbles: true}})); }})()" if not isinstance(value, bool) else
+               f"(() => {{ const e = document.getElementById('{name}'); e.checked = {str(value).lower()}; e.dispatchEvent(new Event('{event}')); }})()")
+
+
+def changed(browser, claim, page, what, act):
+    before = picture(browser)
+    act()
+    claim(page, f"{what} changes the picture", picture(browser) != before)
+
+
+def controls(browser, claim, page):
+    for name, value, event in (("cut", 50, "input"), ("cut-along", "x", "change"), ("size", 30, "input"), ("bonds", True, "change"),
+                               ("colour", "coordination", "change"), ("colour", "tension", "change"), ("frame", 0, "input"), ("find", 3, "change")):
+        changed(browser, claim, page, f"{name} = {value}", lambda: set_value(browser, name, value, event))
+    changed(browser, claim, page, "Zoom in", lambda: browser.js("document.getElementById('closer').click()"))
+    browser.js("document.getElementById('reset').click(); document.getElementById('canvas').focus()")
+    for key in ("ArrowLeft", "ArrowUp", "+", "c", "b", "."):
+        changed(browser, claim, page, f"key {key}", lambda: browser.key(key))
+    browser.key(" ")
+    at = browser.js("crumbleView.state.frame")
+    claim(page, "space plays the frames", browser.until(f"crumbleView.state.frame !== {at}", 30))
+    browser.key(" ")
+    claim(page, "space stops them", browser.js("crumbleView.state.playing") is False)
+    browser.key("Tab")
+    claim(page, "Tab leads from the view to the next control", browser.js("document.activeElement.id") == "file")
+
+
+def clicks(browser, claim, page):
+    """A click on the middle particle of a picture tells its numbers."""
+    browser.js("document.getElementById('reset').click()")
+    set_value(browser, "bonds", False, "change")
+    set_value(browser, "size", 100, "input")
+    settled(browser)
+    where = browser.js("""(() => { const c = document.getElementById('canvas'), r = c.getBoundingClientRect(), d = document.createElement('canvas');
+d.width = c.width; d.height = c.height; const x = d.getContext('2d'); x.drawImage(c, 0, 0);
+for (let y = c.height >> 1; y < c.height; y += 5) for (let k = c.width >> 1; k < c.width; k += 5) { const p = x.getImageData(k, y, 1, 1).data;
+if (p[0] + p[1] + p[2] < 600) return [r.left + k * r.width / c.width, r.top + y * r.height / c.height]; } return null; })()""")
+    browser.mouse(("Pressed", *where), ("Released", *where))
+    said = browser.js("document.getElementById('details').innerText")
+    claim(page, "a click on a particle tells its numbers", "particle" in said and "radius" in said and "nm" in said, said.split("\n")[0].replace("\t", " "))
+
+
+def width_of(browser):
+    return browser.js("[document.documentElement.scrollWidth, window.innerWidth]")
+
+
+def one_page(claim, page, path, out, full=False):
+    with Browser(1000, 1200) as browser:
+        claim(page, "opens from disk", browser.open(path))
+        claim(page, "has its view", browser.js("document.documentElement.dataset.view") == "ready")
+        settled(browser)
+        ink, colours = browser.js(INK)
+        claim(page, "draws", ink > 0.02 and colours > 50, f"{100 * ink:.0f} % of the pixels, {colours} colours")
+        browser.screenshot(out / f"{page}.png")
+        if full:
+            controls(browser, claim, page)
+            clicks(browser, claim, page)
+            browser.pdf(out / f"{page}.pdf")
+            claim(page, "prints", (out / f"{page}.pdf").read_bytes().startswith(b"%PDF") and (out / f"{page}.pdf").stat().st_size > 50_000)
+            browser.resize(360, 740, mobile=True)
+            browser.open(path)
+            wide, window = width_of(browser)
+            claim(page, "fits a phone of 360 pixels", wide <= window == 360, f"{wide} wide")
+            browser.screenshot(out / f"{page}-phone.png")
+        if page == "all":
+            for k in range(browser.js("document.getElementById('file').options.length")):
+                set_value(browser, "file", str(k), "change")
+                found = browser.until(f"crumbleView.state.file.block === 'frames-{k}' && document.getElementById('view-note').hidden")
+                settled(browser)
+                claim(page, f"shows file {k}", found and browser.js(INK)[0] > 0.01)
+        requests = [url for url in browser.js("performance.getEntriesByType('resource').map(e => e.name)") if not url.startswith(("data:", "blob:"))]
+        claim(page, "asks for no other file", not requests, " ".join(requests))
+        claim(page, "has no complaint in the console", not browser.complaints, "; ".join(browser.complaints)[:200])
+        if page == "spheres":
+            claim(page, "holds ten thousand spheres", browser.js("crumbleView.state.file.radius.length") >= 10_000)
+            browser.js("crumbleView.time(2)")
+            print(f"a draw of ten thousand spheres: {browser.js('crumbleView.time(10)'):.0f} ms; with their contacts: ", end="")
+            set_value(browser, "bonds", True, "change")
+            print(f"{browser.js('crumbleView.time(10)'):.0f} ms (software rendering, 1000 pixels wide)")
+
+
+def without_webgl(claim, path):
+    with Browser(800, 600, flags=("--disable-gpu", "--disable-webgl", "--disable-webgl2", "--disable-3d-apis")) as browser:
+        browser.open(path)
+        claim("no WebGL", "a message stands where the view would be", "no WebGL" in browser.js("document.getElementById('view-note').innerText"))
+        claim("no WebGL", "its controls are not shown", browser.js("getComputedStyle(document.getElementById('controls')).display") == "none")
+
+
+def lattice(path):
+    """22 x 22 x 22 spheres of 10 nm that touch, a ball-shaped hole in the middle: 1e4 and some."""
+    x = numpy.stack(numpy.meshgrid(*3 * [numpy.arange(22.0)], indexing="ij"), -1).reshape(-1, 3) * 20
+    write_csv(path, ["x", "y", "z", "radius"], ([*row, 10] for row in x[numpy.linalg.norm(x - 210, axis=1) > 90].tolist()))
+
+
+def command_line():
+    parser = arguments.parser(__doc__, "pages and screenshots", "FOLDER")
+    parser.add_argument("--tool", default=ROOT / "build/release/bin/agglomerate", type=pathlib.Path, metavar="PROGRAM", help="the program agglomerate")
+    return parser
+
+
+def main(options):
+    if not there():
+        print("there is no chromium: pipeline/packages.sh browser", file=sys.stderr)
+        return 77
+    out, tool, claim = options.out, options.tool, Claims()
+    out.mkdir(parents=True, exist_ok=True)
+    lattice(out / "spheres.csv")
+    subprocess.run([tool, "import", out / "spheres.csv", "-o", out / "spheres.h5", "--overwrite"], check=True, capture_output=True)
+    files = {"hollow": [ROOT / "data/hollow.h5"], "all": [SAMPLES / f"{name}-1.2.h5" for name in ("dryer", "breaker", "rigidstress", "import")],
+             "spheres": [out / "spheres.h5"]}
+    for name, of in files.items():
+        begun = time.process_time()
+        report.made(of, str(tool), out / f"{name}.html")
+        size = (out / f"{name}.html").stat().st_size
+        claim(name, "is below ten million bytes", size < 10_000_000, f"{size / 1e6:.2f} MB, {time.process_time() - begun:.1f} s of CPU")
+        one_page(claim, name, out / f"{name}.html", out, full=name == "hollow")
+    without_webgl(claim, out / "hollow.html")
+    write_csv(out / "report_view.csv", ["page", "claim", "verdict", "found"], claim.rows)
+    return 0 if claim.held else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main(command_line().parse_args()))
