@@ -89,6 +89,16 @@ def scene(panels, unit):
     return head + "\n".join(lines) + "\n", at / high
 
 
+def timeless(png):
+    """Without the time that POV-Ray puts in: the same scene is the same file."""
+    out, at = png[:8], 8
+    while at < len(png):
+        end = at + 12 + int.from_bytes(png[at:at + 4], "big")
+        out += png[at:end] if png[at + 4:at + 8] != b"tIME" else b""
+        at = end
+    return out
+
+
 def render(text, aspect, out):
     with tempfile.TemporaryDirectory() as folder:
         source, image = pathlib.Path(folder) / "scene.pov", pathlib.Path(folder) / "scene.png"
@@ -97,7 +107,7 @@ def render(text, aspect, out):
                                f"+I{source}", f"+O{image}"], capture_output=True, text=True)
         if done.returncode != 0:
             raise SystemExit(f"povray: {done.stderr.strip().splitlines()[-1]}")
-        data = image.read_bytes()
+        data = timeless(image.read_bytes())
     temporary = out.with_suffix(".png.tmp")
     temporary.write_bytes(data)
     os.replace(temporary, out)

@@ -98,8 +98,7 @@ def details(title, body):
     return f"<details><summary>{title}</summary>{body}</details>"
 
 
-def section(path, results, tool, folder):
-    info = json.loads(run(tool, "info", path, "--json"))
+def section(path, info, results, folder):
     with h5py.File(path) as file:
         scene = {name: file[f"parameters/{name}"].asstr()[()] for name in ("input", "resolved") if f"parameters/{name}" in file}
     size = info["radius_nm"]
@@ -144,6 +143,7 @@ def comparison(files, folder):
 
 def made(files, tool, out):
     names = " ".join(str(path) for path in files)
+    infos = [json.loads(run(tool, "info", path, "--json")) for path in files]  # refuses what is no result
     results = [(path.stem, headline.results(path, tool)) for path in files]
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
@@ -159,8 +159,8 @@ def made(files, tool, out):
         for same in kinds.values():
             if len(same) > 1:
                 parts += ["<h2>Side by side</h2>", *comparison(same, folder)]
-        for path, (_, found) in zip(files, results):
-            parts += section(path, found, tool, folder)
+        for path, info, (_, found) in zip(files, infos, results):
+            parts += section(path, info, found, folder)
         parts.append(f"<h2>This page</h2><pre>make -C pipeline report FILES=\"{html.escape(names)}\"</pre>")
         page.write(out, "Crumble: " + ", ".join(path.stem for path in files), parts, (HERE / "view.css").read_text(encoding="utf-8"))
 

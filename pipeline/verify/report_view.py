@@ -6,6 +6,7 @@ three.js. Ends with 1 if a claim does not hold; prints how long a draw of ten th
     report_view.py -o results/verify
 """
 
+import json
 import pathlib
 import subprocess
 import sys
@@ -50,9 +51,8 @@ def picture(browser):
 
 
 def set_value(browser, name, value, event):
-    browser.js(f"(() => {{ const e = document.getElementById('{name}'); if (e.type === 'checkbox') e.checked = {str(value).lower()}; "
-               f"else e.value = {value!r}; e.dispatchEvent(new Event('{event}', {{bubbles: true}})); }})()" if not isinstance(value, bool) else
-               f"(() => {{ const e = document.getElementById('{name}'); e.checked = {str(value).lower()}; e.dispatchEvent(new Event('{event}')); }})()")
+    what = "checked" if isinstance(value, bool) else "value"
+    browser.js(f"(() => {{ const e = document.getElementById('{name}'); e.{what} = {json.dumps(value)}; e.dispatchEvent(new Event('{event}')); }})()")
 
 
 def changed(browser, claim, page, what, act):
@@ -63,12 +63,14 @@ def changed(browser, claim, page, what, act):
 
 def controls(browser, claim, page):
     for name, value, event in (("cut", 50, "input"), ("cut-along", "x", "change"), ("size", 30, "input"), ("bonds", True, "change"),
-                               ("colour", "coordination", "change"), ("colour", "tension", "change"), ("frame", 0, "input"), ("find", 3, "change")):
+                               ("colour", "coordination", "change"), ("colour", "tension", "change"), ("frame", 0, "input")):
         changed(browser, claim, page, f"{name} = {value}", lambda: set_value(browser, name, value, event))
     changed(browser, claim, page, "Zoom in", lambda: browser.js("document.getElementById('closer').click()"))
     browser.js("document.getElementById('reset').click(); document.getElementById('canvas').focus()")
     for key in ("ArrowLeft", "ArrowUp", "+", "c", "b", "."):
         changed(browser, claim, page, f"key {key}", lambda: browser.key(key))
+    set_value(browser, "find", 3, "change")
+    claim(page, "a particle that is named tells its numbers", "particle\t3" in browser.js("document.getElementById('details').innerText"))
     browser.key(" ")
     at = browser.js("crumbleView.state.frame")
     claim(page, "space plays the frames", browser.until(f"crumbleView.state.frame !== {at}", 30))
@@ -158,7 +160,8 @@ def main(options):
     out, tool, claim = options.out, options.tool, Claims()
     out.mkdir(parents=True, exist_ok=True)
     lattice(out / "spheres.csv")
-    subprocess.run([tool, "import", out / "spheres.csv", "-o", out / "spheres.h5", "--overwrite"], check=True, capture_output=True)
+    (out / "spheres.h5").unlink(missing_ok=True)
+    subprocess.run([tool, "import", out / "spheres.csv", "-o", out / "spheres.h5"], check=True, stdout=subprocess.DEVNULL)
     files = {"hollow": [ROOT / "data/hollow.h5"], "all": [SAMPLES / f"{name}-1.2.h5" for name in ("dryer", "breaker", "rigidstress", "import")],
              "spheres": [out / "spheres.h5"]}
     for name, of in files.items():
