@@ -12,15 +12,9 @@ import arguments
 import breakup_pictures
 from figure import BLACK, BLUE, LINES, ORANGE, pyplot, save
 from headline import flow_title
+from picture import in_time
 
 MARKS = "osD^v<>"
-
-
-def in_time(seconds):
-    """Times in the unit that suits the last one."""
-    for factor, unit in ((1, "s"), (1e3, "ms"), (1e6, "µs"), (1e9, "ns")):
-        if seconds[-1] * factor >= 1 or unit == "ns":
-            return seconds * factor, unit
 
 
 def drying(file, out):

@@ -1,7 +1,7 @@
 """Agglomerates as POV-Ray sees them, side by side at one scale with a bar.
 
-One file: five of its frames, spaced evenly in the radius of the droplet where it has one. Several, or --cut: the last frame of each.
-Spheres are coloured by their distance from the centre of mass (bright: farthest); the droplet is drawn as glass.
+One file: five of its frames, spaced evenly in the radius of the droplet where it has one, each with its time. Several, or --cut: the last
+frame of each. Spheres are coloured by their distance from the centre of mass (bright: farthest); the droplet is drawn as glass.
 
     picture.py hollow-1.h5 -o drying-hollow.png
     picture.py --cut hollow-1.h5 compact-1.h5 -o granules.png
@@ -13,16 +13,17 @@ import subprocess
 import tempfile
 
 import h5py
-import matplotlib
+import matplotlib.font_manager
 import numpy
 
 import arguments
 
 FRAMES, WIDTH = 5, 1200  # of one file; pixels
 COLOURS = matplotlib.colormaps["cividis"]
+FONT = matplotlib.font_manager.findfont("DejaVu Sans")  # matplotlib brings it
 # y points away from the camera, z up, as in the other pictures.
 SCENE = """#version 3.7;
-global_settings {{ assumed_gamma 1.0 }}
+global_settings {{ assumed_gamma 1.0 charset utf8 }}
 background {{ color rgb 1 }}
 camera {{ orthographic location <{x}, -1000, {z}> right <{wide}, 0, 0> up <0, 0, {high}> direction <0, 1, 0> sky <0, 0, 1>
   look_at <{x}, 0, {z}> }}
@@ -33,13 +34,31 @@ light_source {{ <500, -700, -200> color rgb 0.3 parallel point_at <0, 0, 0> shad
 """
 
 
+def in_time(seconds):
+    """Times in the unit that suits the last one, and that unit."""
+    for factor, unit in ((1, "s"), (1e3, "ms"), (1e6, "µs"), (1e9, "ns")):
+        if seconds[-1] * factor >= 1 or unit == "ns":
+            return seconds * factor, unit
+
+
+def length(nm):
+    return f"{nm:.4g} nm" if nm < 1000 else f"{nm / 1000:.4g} µm"
+
+
+def by_distance(x):
+    """Bright: farthest from the middle."""
+    r = numpy.linalg.norm(x, axis=1)
+    return COLOURS(0.15 + 0.85 * r / max(r.max(), 1e-9))[:, :3]
+
+
 def frames(name, count):
-    """[(positions, radii, shade in 0 to 1, droplet or 0)] in units of the mean radius."""
+    """[(positions, radii, colours, droplet or 0, title)] in units of the mean radius."""
     with h5py.File(name) as file:
         radius = file["particles/all/radius"][:]
         unit = radius.mean()
         total = len(file["particles/all/position/value"])
         droplet = file["observables/droplet_radius/value"][:] if "observables/droplet_radius" in file else numpy.zeros(total)
+        time, name_of_time = in_time(file["particles/all/position/time"][:])
         if count == 1:
             chosen = [total - 1]
         else:
@@ -51,8 +70,7 @@ def frames(name, count):
             x = file["particles/all/position/value"][k] / unit
             if droplet[k] <= 0:
                 x = x - x.mean(axis=0)
-            r = numpy.linalg.norm(x, axis=1)
-            out.append((x, radius / unit, r / max(r.max(), 1e-9), droplet[k] / unit))
+            out.append((x, radius / unit, by_distance(x), droplet[k] / unit, f"{time[k]:.3g} {name_of_time}" if count > 1 else ""))
         return out, unit
 
 
@@ -60,31 +78,39 @@ def reach(x, radius, droplet):
     return max(numpy.abs(x[:, [0, 2]]).max() + radius.max(), droplet)
 
 
-def spheres(x, radius, shade, keep, at):
+def spheres(x, radius, colour, keep, at):
     for p in numpy.flatnonzero(keep):
-        r, g, b = COLOURS(0.15 + 0.85 * shade[p])[:3]
+        r, g, b = colour[p]
         yield (f"sphere {{ <{x[p][0] + at:.4f}, {x[p][1]:.4f}, {x[p][2]:.4f}>, {radius[p]:.4f} "
                f"pigment {{ color srgb <{r:.4f}, {g:.4f}, {b:.4f}> }} finish {{ matte }} }}")
 
 
-def scene(panels, unit):
-    """POV-Ray text of panels (positions, radii, shade, droplet, cut), its width over height."""
-    sizes = [reach(x, radius, droplet) for x, radius, _, droplet, _ in panels]
+def text_at(words, x, z, size):
+    return (f"text {{ ttf \"{FONT}\" \"{words}\" 0.01, 0 scale {size:.4f} rotate 90*x translate <{x:.4f}, -900, {z:.4f}> "
+            "pigment { color rgb 0 } finish { ambient 0 diffuse 0 } }")
+
+
+def scene(panels, unit, caption, size=None):
+    """POV-Ray text of panels (positions, radii, colours, droplet, title, cut), its width over height. The caption stands beside the bar;
+    size: half of what a panel shows, without it what there is."""
+    sizes = [size or reach(x, radius, droplet) for x, radius, _, droplet, _, _ in panels]
     high, gap = 2 * max(sizes) + 4, 1.5
+    text = high / 20
     lines, at = [], 0.0
-    for (x, radius, shade, droplet, cut), size in zip(panels, sizes):
+    for (x, radius, colour, droplet, title, cut), size in zip(panels, sizes):
         at += size + gap
+        if title:
+            lines.append(text_at(title, at - size, 0.5 * high - 0.9 * text, text))
         keep = x[:, 1] > -0.5 if cut else numpy.ones(len(x), bool)
-        lines += spheres(x, radius, shade, keep, at)
+        lines += spheres(x, radius, colour, keep, at)
         if droplet > 0:
             lines.append(f"sphere {{ <{at:.4f}, 0, 0>, {droplet:.4f} texture {{ glass }} no_shadow }}")
         at += size + gap
     bar = 10.0 ** numpy.floor(numpy.log10(0.3 * at * unit))
-    length, low = bar / unit, -0.5 * high + 1.2
-    label = f"{bar:g} nm" if bar < 1000 else f"{bar / 1000:g} um"
-    lines.append(f"cylinder {{ <1, -900, {low}>, <{1 + length:.4f}, -900, {low}>, 0.12 pigment {{ color rgb 0 }} }}")
-    lines.append(f"text {{ internal 2 \"{label}\" 0.01, 0 scale {high / 18:.4f} rotate 90*x "
-                 f"translate <1, -900, {low + 0.4:.4f}> pigment {{ color rgb 0 }} finish {{ ambient 0 diffuse 0 }} }}")
+    length_of_bar, low = bar / unit, -0.5 * high + 1.2
+    lines.append(f"cylinder {{ <1, -900, {low}>, <{1 + length_of_bar:.4f}, -900, {low}>, 0.12 pigment {{ color rgb 0 }} }}")
+    words = f"{length(bar)}   {caption}"
+    lines.append(text_at(words, 1, low + 0.4, min(text, (at - 2) / (0.55 * len(words)))))  # a letter is half as wide as high
     head = SCENE.format(x=f"{at / 2:.4f}", z=0, wide=f"{at:.4f}", high=f"{high:.4f}")
     return head + "\n".join(lines) + "\n", at / high
 
@@ -99,11 +125,11 @@ def timeless(png):
     return out
 
 
-def render(text, aspect, out):
+def render(text, aspect, out, width=WIDTH):
     with tempfile.TemporaryDirectory() as folder:
         source, image = pathlib.Path(folder) / "scene.pov", pathlib.Path(folder) / "scene.png"
-        source.write_text(text)
-        done = subprocess.run(["povray", "-D", "-GA", f"+W{WIDTH}", f"+H{round(WIDTH / aspect)}", "+A0.2", "+WT1",
+        source.write_text(text, encoding="utf-8")
+        done = subprocess.run(["povray", "-D", "-GA", f"+W{width}", f"+H{2 * round(width / aspect / 2)}", "+A0.2", "+WT1",
                                f"+I{source}", f"+O{image}"], capture_output=True, text=True)
         if done.returncode != 0:
             raise SystemExit(f"povray: {done.stderr.strip().splitlines()[-1]}")
@@ -111,6 +137,12 @@ def render(text, aspect, out):
     temporary = out.with_suffix(".png.tmp")
     temporary.write_bytes(data)
     os.replace(temporary, out)
+
+
+def said_of(radii):
+    """What is drawn, for who has no legend: mean radii and the meaning of the colours."""
+    known = sorted({length(a) for a in radii})
+    return f"particles of {', '.join(known)}; bright: far from the middle"
 
 
 def command_line():
@@ -122,14 +154,15 @@ def command_line():
 
 def main(options):
     one = len(options.files) == 1
-    panels, unit = [], 1.0
+    panels, units = [], []
     for name in options.files:
         found, unit = frames(name, FRAMES if one and not options.cut else 1)
+        units.append(unit)
         for panel in found:
             panels.append((*panel, False))
             if options.cut:
                 panels.append((*panel, True))
-    render(*scene(panels, unit), options.out)
+    render(*scene(panels, units[-1], said_of(units)), options.out)
 
 
 if __name__ == "__main__":
