@@ -23,7 +23,7 @@ def load(path):
 
 def row(kind, path, found, rigid):
     r, error = found["results"], found["errors"]["critical_stress_relative"]["value"]
-    uncertain = "" if error is None else f" +- {100 * error:.1g} %"
+    uncertain = "" if error is None else f" (error {100 * error:.1g} %)"
     theirs = [f"{stress} Pa" for stress in published.BREAKUPS.get(kind, ())] or ["", ""]
     return [path.stem, f"{r['critical_stress_pa']:.0f} Pa{uncertain}", theirs[0], "settles nowhere" if rigid is None else f"{rigid:.0f} Pa", theirs[1],
             "" if rigid is None else f"{r['critical_stress_pa'] / rigid:.2f}", f"{r['first_rupture_stress_pa']:.0f} Pa",

@@ -45,9 +45,9 @@ def rows(runs):
 def show(table):
     print_markdown(["lifetime ms", "integrator", "granules", *(label for _, label, _ in QUANTITIES), "front", "CPU s"],
                    [[f"{row['lifetime_ms']:g}", row["integrator"], str(row["granules"]),
-                     *(form.format(row[name]) + " +- " + form.format(row[name + "_spread"]) for name, _, form in QUANTITIES),
+                     *(f"{form.format(row[name])} (sd {form.format(row[name + '_spread'])})" for name, _, form in QUANTITIES),
                      f"{row['front_over_limit']:.2f}", f"{row['cpu_s']:.1f}"] for row in table])
-    print("\n+-: standard deviation between granules. front: speed of the receding surface where its radius is d_c/2, over the\n"
+    print("\nsd: standard deviation between granules. front: speed of the receding surface where its radius is d_c/2, over the\n"
           "speed sigma/(3 mu) at which the capillary force can move a particle.")
 
 

@@ -31,9 +31,9 @@ def load(path):
 
 
 def mean(values):
-    """Mean with half of its 95 % interval, to two digits of that."""
-    if len(values) < 2:
-        return f"{statistics.fmean(values):.4g}"
+    """Mean with half of its 95 % interval, to two digits of that; two granules as lowest and highest."""
+    if len(values) < 3:
+        return " to ".join(f"{value:.4g}" for value in sorted({*map(float, values)}))
     half = half_width(values)
     digits = max(0, 1 - math.floor(math.log10(half))) if half > 0 else 0
     return f"{statistics.fmean(values):.{digits}f} ± {half:.{digits}f}"
@@ -42,7 +42,8 @@ def mean(values):
 def stored_error(row):
     """Of a row with Brownian motion: kept from comparisons with contacts of full stiffness."""
     d_c = load(STORED)[row]["d_c_relative"]
-    return f"d_c {100 * d_c['difference']:+.1f} ± {100 * d_c['interval_95']:.1f} % of full stiffness (stored)"
+    low, high = (100 * (d_c["difference"] + side * d_c["interval_95"]) for side in (-1, 1))
+    return f"d_c {low:+.1f} to {high:+.1f} % of full stiffness (stored)"
 
 
 def from_markdown(path):
@@ -90,7 +91,7 @@ class Page:
             rows.append(cells + [f"{statistics.fmean(run['cpu_s'] for run in runs):.3g}"])
         self.add("<h2>Table 2 and Fig. 3: the Péclet number</h2>",
                  as_html(["granules", "n", "d_c, nm", "paper", "h_c/d_c", "paper", "coordination", "paper", "CPU s each"], rows),
-                 "<p>±: half of the 95 % interval of the mean over granules. The paper's values are of one granule each.</p>",
+                 "<p>±: half of the 95 % interval of the mean over granules; two granules are given as lowest to highest. The paper's values are of one granule each.</p>",
                  figure(self.results / "figure3.svg", "Fig. 3. Lines: mean over granules; bands: lowest and highest."),
                  figure(self.results / "drying-hollow.png", "Drying at Pe → ∞."),
                  *(figure(path, "Drying at a finite Péclet number.") for name in ("compact", "intermediate")
@@ -122,7 +123,7 @@ class Page:
     def breakups(self):
         folder = self.results / "breakup"
         self.add("<h2>Section 3.3, Figs 6 and 7: breakup of flexible granules</h2>", from_markdown(folder / "paper.md"),
-                 "<p>Changes are those at 1 % less stress. +-: difference to doubled tolerance.</p>")
+                 "<p>Changes are those at 1 % less stress. Error: difference to doubled tolerance.</p>")
         for path in self.all_broken():
             self.add(figure(path.with_name(f"{path.stem}-strip.png"), f"Fig. 6, {path.stem}: snapshots at growing flow stress."),
                      figure(path.with_name(f"{path.stem}-course.svg"), f"Fig. 7, {path.stem}."))
@@ -169,7 +170,8 @@ def main(options):
     page.add("<h1>Micromechanics and strength of agglomerates produced by spray drying, computed again</h1>",
              "<p>Every table and figure of Vasquez Giuliano, Buffo, Vanni and Frungieri (2022), JCIS Open 8, 100068, by Crumble, with our "
              "numbers and their errors beside the paper's.</p>",
-             figure(results / "granules.png", "A hollow and a compact granule, whole and with the front half taken away."))
+             figure(results / "granules.png", "A hollow and a compact granule, whole and with the front half taken away."),
+             '<p><a href="granules.html">Turn them, cut them open and see them break</a>: a page with a 3D view.</p>')
     page.table2()
     page.difference()
     page.add("<h2>Table 3 and Fig. 4: the lifetime at high Péclet numbers</h2>", from_markdown(results / "lifetime/table3.md"),
