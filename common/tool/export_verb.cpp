@@ -37,7 +37,8 @@ void export_xyz(const AgglomerateReader& reader, const std::vector<std::size_t>&
                      bonds_name);
 }
 
-// One file for one frame; else OUT-0000.hdf, OUT-0001.hdf, ... and OUT.hdf.series that holds them together.
+// One file for one frame; else OUT/0000.hdf, OUT/0001.hdf, ... and beside that folder OUT.hdf.series, which holds them
+// together.
 void export_hdf(const AgglomerateReader& reader, const std::vector<std::size_t>& numbers, const std::string& output,
                 const std::string& input, std::ostream& out) {
   if (numbers.size() == 1) {
@@ -47,14 +48,19 @@ void export_hdf(const AgglomerateReader& reader, const std::vector<std::size_t>&
   }
   const std::string series_name = output + ".series";
   require_ours(series_name, input);
-  const fs::path stem = fs::path(output).replace_extension();
+  const fs::path folder = fs::path(output).replace_extension();
+  std::error_code failed;
+  fs::create_directory(folder, failed);
+  if (failed || !fs::is_directory(folder))
+    throw InputError("agglomerate: -o " + output + ": the frames go into the folder '" + folder.string() +
+                     "', which cannot be made" + (failed ? ": " + failed.message() : ""));
   std::vector<std::pair<std::string, double>> members;
   for (std::size_t number : numbers) {
-    const std::string name = fmt::format("{}-{:04}.hdf", stem.string(), number);
+    const std::string name = (folder / fmt::format("{:04}.hdf", number)).string();
     require_ours(name, input);
     const Frame frame = reader.frame(number);
     write_vtkhdf(name, reader.particles(), frame);
-    members.emplace_back(fs::path(name).filename().string(), frame.time);
+    members.emplace_back((folder.filename() / fs::path(name).filename()).string(), frame.time);
   }
   TextFile series(series_name);
   series.stream() << series_text(members);

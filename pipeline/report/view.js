@@ -201,8 +201,22 @@ function recolour() {
   describe();
   draw();
 }
+// While the picture changes it is drawn as finely as the machine manages twenty times a second; a quarter of a second later as finely as
+// the screen is.
+let resting = true, fineness = 1, rest = 0, last = 0;
 function draw() {
-  if (!asked) { asked = true; requestAnimationFrame(() => { asked = false; drawNow(); }); }
+  if (asked) return;
+  asked = true;
+  requestAnimationFrame(now => {
+    asked = false;
+    const took = now - last;
+    last = now;
+    if (!resting && took < 2000) fineness = Math.max(0.3, Math.min(1, fineness * (took > 50 ? 0.8 : took < 25 ? 1.1 : 1)));
+    resting = false;
+    drawNow();
+    clearTimeout(rest);
+    rest = setTimeout(() => { resting = true; drawNow(); }, 250);
+  });
 }
 function plane() {
   // The half space n·x > w is taken away; n in the view's axes.
@@ -212,7 +226,7 @@ function plane() {
   return new THREE.Vector4(n.x, n.y, n.z, w);
 }
 function aim() {
-  const wide = canvas.clientWidth || 1, high = canvas.clientHeight || 1, ratio = Math.min(2, window.devicePixelRatio || 1);
+  const wide = canvas.clientWidth || 1, high = canvas.clientHeight || 1, ratio = Math.min(2, window.devicePixelRatio || 1) * (resting ? 1 : fineness);
   if (canvas.width !== Math.round(wide * ratio) || canvas.height !== Math.round(high * ratio)) {
     renderer.setPixelRatio(ratio);
     renderer.setSize(wide, high, false);
@@ -240,6 +254,7 @@ function drawNow() {
 // ---- What is under the pointer ---------------------------------------------------------------------------------------------------
 
 function pick(x, y) {
+  resting = true;
   aim();
   const wide = canvas.width, high = canvas.height, ratio = wide / canvas.clientWidth;
   if (!target || target.width !== wide || target.height !== high) target = new THREE.WebGLRenderTarget(wide, high);
@@ -390,7 +405,7 @@ function listen() {
   on('farther', 'click', () => zoom(0.8));
   on('find', 'change', e => { const row = state.file.id.indexOf(+e.target.value); choose(row < 0 || e.target.value === '' ? null : {kind: 0, row}); });
   window.addEventListener('resize', draw);
-  window.addEventListener('beforeprint', drawNow);
+  window.addEventListener('beforeprint', () => { resting = true; drawNow(); });
   canvas.addEventListener('webglcontextlost', e => { e.preventDefault(); fail('The graphics context was lost; load the page again.'); });
 }
 
@@ -419,10 +434,11 @@ function start() {
   openFile(0).then(() => { document.documentElement.dataset.view = 'ready'; }, error => fail(`The 3D view failed: ${error.message}`));
 }
 // For tests and for the curious: what is shown, and how long some draws take.
-window.crumbleView = {state, get drawn() { return drawn; }, get rotation() { return rotation.toArray(); },
+window.crumbleView = {state, get drawn() { return drawn; }, get resting() { return resting && !asked; },
   time(times) {
     const gl = renderer.getContext(), pixel = new Uint8Array(4), start = performance.now();
-    for (let k = 0; k < times; ++k) { turn(0.05, 0.02); drawNow(); gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel); }
+    resting = true;
+    for (let k = 0; k < times; ++k) { rotation.premultiply(new THREE.Quaternion(0.02, 0.03, 0, 1).normalize()); drawNow(); gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel); }
     return (performance.now() - start) / times;
   }};
 start();
