@@ -2,6 +2,7 @@
 # packages.sh [SECTION...]: installs what is missing of packages.txt, of its head and of the sections that are named: as root,
 # or with sudo where that asks for no password. Otherwise prints the command and fails. Says nothing when all is there.
 set -euo pipefail
+[[ ${1:-} != -h && ${1:-} != --help ]] || { sed -n '2,/^[^#]/s/^# //p' "$0"; exit 0; }
 export PATH="$PATH:/usr/local/sbin:/usr/sbin:/sbin" LC_ALL=C.UTF-8  # dpkg needs ldconfig, which lives in sbin
 
 list="$(dirname "$0")/packages.txt"

@@ -2,6 +2,7 @@
 # stage.sh PROGRAM OUTPUT.h5 INPUT... [-- OPTION...]: runs one stage unless its output and report are newer than all that
 # they come from. File names may hold blanks, which make's own targets may not.
 set -euo pipefail
+[[ ${1:-} != -h && ${1:-} != --help ]] || { sed -n '2,/^[^#]/s/^# //p' "$0"; exit 0; }
 
 program=$1 output=$2
 shift 2

@@ -9,7 +9,10 @@ ParaView's own Python, and opens a window to draw in: where there is no screen, 
 
 import argparse
 
-from paraview import simple
+try:
+    from paraview import simple
+except ModuleNotFoundError:  # --help is for every Python
+    simple = None
 
 
 def shown(name):
@@ -68,6 +71,8 @@ def command_line():
 
 
 def main(options):
+    if simple is None:
+        raise SystemExit("this Python has no paraview: pvpython pipeline/view.py ...")
     if not (options.state or options.picture):
         raise SystemExit("say --state FILE.pvsm or --picture FILE.png")
     _, _, _, view = shown(options.file)

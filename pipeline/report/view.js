@@ -1,9 +1,8 @@
-// The 3D view of a report: draws the frames that the page carries (packed.py) with three.js. Spheres and bonds are one quad each
-// whose pixels find the surface, so that ten thousand of them turn smoothly and a cut through them is exact. Orthographic.
+// The 3D view of a report: draws the frames that the page carries (packed.py) with three.js. Spheres and bonds are one quad each (shaders.js),
+// so that ten thousand of them turn smoothly and a cut through them is exact.
 (function () {
 'use strict';
-const $ = id => document.getElementById(id);
-const page = JSON.parse($('view-data').textContent);
+const $ = id => document.getElementById(id), page = JSON.parse($('view-data').textContent);
 const canvas = $('canvas'), note = $('view-note'), details = $('details');
 const KINDS = {f4: Float32Array, u4: Uint32Array, u2: Uint16Array, u1: Uint8Array};
 const prefix = (value, unit) => {  // 1.2e-10 N as 0.12 nN
@@ -38,29 +37,34 @@ async function unpack(head) {
 let renderer, camera, target;
 const shared = {plane: {value: null}, depth: {value: 1}, picking: {value: 0}, centre: {value: null}, turn: {value: null},
                 half_: {value: null}, scale: {value: 1}, thick: {value: 1}};
-const quad = new Float32Array([-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0]);
+const CORNERS = [-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0], TRIANGLES = [0, 1, 2, 0, 2, 3];
 
-function instanced(shader, more) {
-  const geometry = new THREE.InstancedBufferGeometry();
-  geometry.setIndex([0, 1, 2, 0, 2, 3]);
-  (geometry.setAttribute || geometry.addAttribute).call(geometry, 'position', new THREE.BufferAttribute(quad, 3));
+// Four corners a thing, each with the thing's numbers. Instances of one quad would be a quarter of the memory, but graphics chips take
+// things of two triangles one by one, and software rendering spends a tenth of a millisecond on each.
+function quads(shader, more) {
   const material = new THREE.ShaderMaterial(Object.assign({uniforms: shared, extensions: {fragDepth: true}, side: THREE.DoubleSide}, shader, more));
-  const mesh = new THREE.Mesh(geometry, material);
+  const mesh = new THREE.Mesh(new THREE.BufferGeometry(), material);
   mesh.frustumCulled = false;
   return mesh;
 }
+const attach = (mesh, name, array, width, normalized) => (mesh.geometry.setAttribute || mesh.geometry.addAttribute)
+  .call(mesh.geometry, name, new THREE.BufferAttribute(array, width, !!normalized));
 // Arrays of the same length are filled in place: only a change of number makes new buffers.
-function fill(mesh, name, array, width, normalized) {
-  const old = mesh.geometry.attributes[name];
-  if (old && old.array.length === array.length) { old.array.set(array); old.needsUpdate = true; return; }
-  const set = mesh.geometry.setAttribute || mesh.geometry.addAttribute;
-  const copy = normalized ? Uint8Array.from(array) : Float32Array.from(array);
-  set.call(mesh.geometry, name, new THREE.InstancedBufferAttribute(copy, width, !!normalized));
+function fill(mesh, name, values, width, normalized) {
+  const old = mesh.geometry.attributes[name], same = old && old.array.length === 4 * values.length;
+  const out = same ? old.array : new (normalized ? Uint8Array : Float32Array)(4 * values.length);
+  for (let k = 0; k < values.length; ++k) {
+    const item = Math.floor(k / width), at = 4 * width * item + k - width * item;
+    for (let corner = 0; corner < 4; ++corner) out[at + corner * width] = values[k];
+  }
+  if (same) old.needsUpdate = true; else attach(mesh, name, out, width, normalized);
 }
 function count(mesh, n) {
-  mesh.geometry.maxInstancedCount = n;  // up to release 116 of three.js
-  mesh.geometry.instanceCount = n;
   mesh.visible = n > 0;
+  if (mesh.things === n || n === 0) return;
+  mesh.things = n;
+  attach(mesh, 'position', Float32Array.from({length: 12 * n}, (_, k) => CORNERS[k % 12]), 3);
+  mesh.geometry.setIndex(new THREE.BufferAttribute(Uint32Array.from({length: 6 * n}, (_, k) => 4 * Math.floor(k / 6) + TRIANGLES[k % 6]), 1));
 }
 const numbers = (n, kind) => {  // 1 to n in two bytes and a half, the kind in the rest
   const out = new Uint8Array(3 * n);
@@ -182,7 +186,7 @@ function setFrame(k) {
     }
     fill(bonds, 'start', start, 3);
     fill(bonds, 'end', end, 3);
-    if (!bonds.geometry.attributes.number || bonds.geometry.attributes.number.array.length !== 3 * m) fill(bonds, 'number', numbers(m, 1), 3, true);
+    if (!bonds.geometry.attributes.number || bonds.geometry.attributes.number.array.length !== 12 * m) fill(bonds, 'number', numbers(m, 1), 3, true);
   }
   count(bonds, state.bonds ? m : 0);
   fill(droplet, 'size', [f.droplet_radius || 1], 1);
@@ -412,9 +416,9 @@ function listen() {
 function start() {
   if (typeof THREE === 'undefined') return fail(page.without);
   if (typeof DecompressionStream === 'undefined') return fail('This browser is too old for the 3D view (it lacks DecompressionStream); numbers and figures follow.');
-  const context = canvas.getContext('webgl2', {antialias: true, preserveDrawingBuffer: true});
+  const context = canvas.getContext('webgl2', {antialias: false, preserveDrawingBuffer: true});
   try {
-    renderer = new THREE.WebGLRenderer(Object.assign({canvas, antialias: true, preserveDrawingBuffer: true}, context ? {context} : {}));
+    renderer = new THREE.WebGLRenderer(Object.assign({canvas, antialias: false, preserveDrawingBuffer: true}, context ? {context} : {}));
   } catch (error) { return fail('This browser has no WebGL, so there is no 3D view; numbers and figures follow.'); }
   camera = new THREE.Camera();
   scene = new THREE.Scene();
@@ -423,21 +427,22 @@ function start() {
   Object.assign(shared.turn, {value: new THREE.Matrix3()});
   Object.assign(shared.half_, {value: new THREE.Vector2(1, 1)});
   shared.plane.value = new THREE.Vector4(0, 0, 1, 1e9);
-  spheres = instanced(SPHERE);
-  bonds = instanced(BOND);
+  spheres = quads(SPHERE);
+  bonds = quads(BOND);
   // The glass is not scaled with the particles, and writes no depth of its own.
-  droplet = instanced(DROPLET, {uniforms: Object.assign({}, shared, {scale: {value: 1}}), transparent: true, depthWrite: false, depthTest: false});
+  droplet = quads(DROPLET, {uniforms: Object.assign({}, shared, {scale: {value: 1}}), transparent: true, depthWrite: false, depthTest: false});
   droplet.renderOrder = 1;
   scene.add(spheres, bonds, droplet);
   rotation.setFromEuler(new THREE.Euler(-Math.PI / 2, 0, 0));
   listen();
   openFile(0).then(() => { document.documentElement.dataset.view = 'ready'; }, error => fail(`The 3D view failed: ${error.message}`));
 }
-// For tests and for the curious: what is shown, and how long some draws take.
+// For tests: what is shown, and how long a draw takes.
 window.crumbleView = {state, get drawn() { return drawn; }, get resting() { return resting && !asked; },
-  time(times) {
+  time(times, part = 1) {
     const gl = renderer.getContext(), pixel = new Uint8Array(4), start = performance.now();
-    resting = true;
+    resting = part === 1;
+    fineness = part;
     for (let k = 0; k < times; ++k) { rotation.premultiply(new THREE.Quaternion(0.02, 0.03, 0, 1).normalize()); drawNow(); gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel); }
     return (performance.now() - start) / times;
   }};

@@ -1,6 +1,7 @@
 #!/bin/bash
 # Tests that CI runs in a small version, at full length: 1e5 particles, the bonded share of a pair, the drag of dry particles.
 set -euo pipefail
+[[ ${1:-} != -h && ${1:-} != --help ]] || { sed -n '2,/^[^#]/s/^# //p' "$0"; exit 0; }
 cd "$(dirname "$0")/../.."
 cmake --preset release > /dev/null
 cmake --build --preset release --target test_dryer test_dryer_brownian > /dev/null

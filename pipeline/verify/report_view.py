@@ -129,11 +129,12 @@ def one_page(claim, page, path, out, full=False):
         claim(page, "has no complaint in the console", not browser.complaints, "; ".join(browser.complaints)[:200])
         if page == "spheres":
             claim(page, "holds ten thousand spheres", browser.js("crumbleView.state.file.radius.length") >= 10_000)
-            for contacts in (False, True):
+            for contacts, part in ((False, 1), (True, 1), (False, 0.3)):
                 set_value(browser, "bonds", contacts, "change")
+                set_value(browser, "size", 100, "input")
                 settled(browser)
                 begun = browser.cpu_seconds()
-                wall = browser.js("crumbleView.time(5)") / 1000
+                wall = browser.js(f"crumbleView.time(5, {part})") / 1000
                 cost = (browser.cpu_seconds() - begun) / 5
                 print(f"one draw of {browser.js('crumbleView.state.file.radius.length')} spheres{' and their contacts' if contacts else ''}: "
                       f"{cost:.2f} s of CPU, {wall:.2f} s (software rendering, {browser.js('document.getElementById(`canvas`).width')} pixels wide)")

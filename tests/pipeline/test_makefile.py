@@ -220,6 +220,35 @@ class Stages(Sandbox):
         listed = {line.split()[0] for line in self.make("help").stdout.splitlines() if re.match(r"  [a-z0-9-]+  ", line)}
         self.assertEqual(listed, phony)
 
+    def test_help_begins_with_what_one_does_every_day(self):
+        lines = [line for line in self.make("help").stdout.splitlines() if not line.startswith("make:")]
+        self.assertEqual([line.split()[0] for line in lines[:6]], ["Every", "all", "dry", "breakup", "report", "test"])
+
+    def test_report_and_film_take_files_by_their_names_from_the_top(self):
+        self.stand_in("python", PYTHON)
+        done = self.make("report", "FILES=data/a.h5 data/b.h5", "PYTHON=python")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("pipeline/results/report.html", done.stdout.splitlines())
+        (call,) = self.called("python")
+        self.assertEqual(call, "python pipeline/report/report.py data/a.h5 data/b.h5 --tool build/release/bin/agglomerate -o pipeline/results/report.html")
+        self.forget()
+        self.assertEqual(self.make("film", "FILE=my data/a b.h5", "OUT=films/x", "PYTHON=python").returncode, 0)
+        self.assertIn("python pipeline/report/film.py my data/a b.h5", self.called("python")[0])
+        self.assertIn("-o films/x", self.called("python")[0])
+        self.assertIn("which files?", self.make("report").stderr)
+        self.assertIn("which file?", self.make("film").stderr)
+
+    def test_a_report_is_made_where_its_3d_view_cannot_be_had(self):
+        self.stand_in("python", PYTHON)
+        self.stand_in("dpkg-query", '#!/bin/bash\nshift 3\nprintf "%s=installed\\n" "$@" | grep -v libjs-three\n')
+        self.stand_in("apt-get", "#!/bin/bash\nexit 100\n")
+        self.stand_in("apt-cache", "#!/bin/bash\nexit 0\n")
+        self.stand_in("id", "#!/bin/bash\necho 0\n")
+        done = self.make("report", "FILES=a.h5", "PYTHON=python")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("made without its 3D view", done.stderr)
+        self.assertEqual(len(self.called("python")), 1)
+
     def test_ci_runs_the_test_target_and_takes_warnings_for_errors(self):
         self.assertIn("pipeline\" test WERROR=ON", (pathlib.Path(ROOT) / ".ci" / "run").read_text())
         self.assertEqual(self.make("test", "WERROR=ON").returncode, 0)

@@ -9,6 +9,7 @@ import os
 import pathlib
 import re
 import shlex
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -130,6 +131,17 @@ class Arguments(InAFolder):
                             (self.folder / name).parent.mkdir(parents=True, exist_ok=True)
                             (self.folder / name).touch()
                     parser.parse_args(words)
+
+
+    def test_every_shell_script_and_program_of_paraview_answers_help(self):
+        scripts = sorted(set(PIPELINE.rglob("*.sh")) - {PIPELINE / "verify/platforms/chroot.sh"}) + [PIPELINE / "view.py"]
+        self.assertGreater(len(scripts), 6)
+        for path in scripts:
+            with self.subTest(script=path.name):
+                command = "/usr/bin/python3" if path.suffix == ".py" else "/bin/bash"
+                done = subprocess.run([command, path, "--help"], capture_output=True, text=True, timeout=30)
+                self.assertEqual((done.returncode, done.stderr), (0, ""))
+                self.assertGreater(len(done.stdout.splitlines()), 0)
 
 
 class Lifetimes(InAFolder):
