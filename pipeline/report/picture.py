@@ -94,7 +94,7 @@ def scene(panels, unit, caption, size=None):
     """POV-Ray text of panels (positions, radii, colours, droplet, title, cut), its width over height. The caption stands beside the bar;
     size: half of what a panel shows, without it what there is."""
     sizes = [size or reach(x, radius, droplet) for x, radius, _, droplet, _, _ in panels]
-    high, gap = 2 * max(sizes) + 4, 1.5
+    high, gap = 2 * max(sizes) + 7, 1.5  # the rest: two lines of text
     text = high / 20
     lines, at = [], 0.0
     for (x, radius, colour, droplet, title, cut), size in zip(panels, sizes):
