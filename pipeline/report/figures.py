@@ -21,7 +21,9 @@ def drying(file, out):
     """The course of a drying, and where the particles are at its end."""
     course = file["observables"]
     time, unit = in_time(file["particles/all/position/time"][:])
-    figure, (size, contacts, place) = pyplot.subplots(1, 3, figsize=(11, 3.2), layout="constrained")
+    has_places = "morphology/radial_position" in file  # not in every file of earlier programs
+    figure, panels = pyplot.subplots(1, 2 + has_places, figsize=(11, 3.2), layout="constrained")
+    size, contacts = panels[:2]
     size.plot(time, course["droplet_radius/value"][:], "-", color=BLUE, label="droplet, radius")
     size.plot(time, course["radius_of_gyration/value"][:], "--", color=ORANGE, label="particles, radius of gyration")
     if "morphology/diameter" in file:
@@ -31,10 +33,10 @@ def drying(file, out):
     size.set(xlabel=f"time, {unit}", ylabel="nm", ylim=(0, None))
     contacts.plot(time, course["coordination_number/value"][:], color=BLUE)
     contacts.set(xlabel=f"time, {unit}", ylabel="mean number of contacts of a particle", ylim=(0, None))
-    if "morphology/radial_position" in file:
+    if has_places:
         r = file["morphology/radial_position"][:]
-        place.step([0, *r], [0, *(numpy.arange(1, len(r) + 1) / len(r))], where="post", color=BLUE)
-    place.set(xlabel="distance from the centre of mass, nm", ylabel="share of the particles within", ylim=(0, 1), xlim=(0, None))
+        panels[2].step([0, *r], [0, *(numpy.arange(1, len(r) + 1) / len(r))], where="post", color=BLUE)
+        panels[2].set(xlabel="distance from the centre of mass, nm", ylabel="share of the particles within", ylim=(0, 1), xlim=(0, None))
     size.legend(frameon=False, fontsize=8)
     save(figure, out)
 

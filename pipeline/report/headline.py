@@ -56,7 +56,8 @@ class Result:
     """One number: key, title, value, unit, relative error or None, how that was found."""
 
     def __init__(self, key, title, value, unit="", relative=None, how="not estimated"):
-        self.key, self.title, self.value, self.unit, self.relative, self.how = key, title, value, unit, relative, how
+        self.key, self.title, self.value, self.unit, self.relative = key, title, value, unit, relative
+        self.how = "counted in this frame" if isinstance(value, int) and relative is None else how
 
     def text(self):
         return with_error(self.value, self.relative, self.unit)
