@@ -13,7 +13,7 @@ from figure import BLUE, ORANGE, pyplot, save
 from interval import half_width
 from table import print_markdown, write_records
 
-QUANTITIES = [("d_c_um", "d_c, um", "{:.2f}"), ("h_c_um", "h_c, um", "{:.2f}"), ("h_c_over_d_c", "h_c/d_c", "{:.3f}"),
+QUANTITIES = [("d_c_um", "d_c, µm", "{:.2f}"), ("h_c_um", "h_c, µm", "{:.2f}"), ("h_c_over_d_c", "h_c/d_c", "{:.3f}"),
               ("contacts", "contacts", "{:.1f}"), ("fragments", "fragments", "{:.1f}")]
 
 

@@ -21,8 +21,7 @@ from page import as_html, figure, missing, write
 TITLES = {name: row["title"] for name, row in published.GRANULES.items()} | {"adhesive": "bond of 42 kT, Pe = 10, N = 85"}
 # Columns of strength/table.csv as the page names them.
 STRENGTH = {"population": "granules", "agglomerates": "n", "coordination": "coordination", "flow": "orientation", "n_max": "N_max",
-            "half_width": "±", "paper_n_max": "paper", "error_percent": "error of one, %", "critical_stress_pa": "breaks at, Pa",
-            "half_width_pa": "±", "paper_pa": "paper"}
+            "paper_n_max": "paper", "error_percent": "error of one, %", "critical_stress_pa": "breaks at, Pa", "paper_pa": "paper"}
 STORED = pathlib.Path(__file__).parent.parent / "verify" / "brownian.json"
 
 
@@ -63,6 +62,14 @@ def from_csv(path):
         return list(csv.DictReader(file))
 
 
+def of_population(row, key, ending):
+    """Mean with half of its interval, of two granules lowest and highest, or the one value: as mean() says it."""
+    if int(row["agglomerates"]) == 2:
+        return f"{row['lowest' + ending]} to {row['highest' + ending]}"
+    half = row["half_width" + ending]
+    return row[key] if half == "nan" else f"{row[key]} ± {half}"
+
+
 class Page:
     def __init__(self, results, dried, broken):
         """dried, broken: {kind: [report]}, reports by dryer and by breaker."""
@@ -91,7 +98,8 @@ class Page:
             rows.append(cells + [f"{statistics.fmean(run['cpu_s'] for run in runs):.3g}"])
         self.add("<h2>Table 2 and Fig. 3: the Péclet number</h2>",
                  as_html(["granules", "n", "d_c, nm", "paper", "h_c/d_c", "paper", "coordination", "paper", "CPU s each"], rows),
-                 "<p>±: half of the 95 % interval of the mean over granules; two granules are given as lowest to highest. The paper's values are of one granule each.</p>",
+                 "<p>±: half of the 95 % interval of the mean over granules; two granules are given as lowest to highest. The paper's values are of one "
+                 "granule each.</p>",
                  figure(self.results / "figure3.svg", "Fig. 3. Lines: mean over granules; bands: lowest and highest."),
                  figure(self.results / "drying-hollow.png", "Drying at Pe → ∞."),
                  *(figure(path, "Drying at a finite Péclet number.") for name in ("compact", "intermediate")
@@ -111,11 +119,12 @@ class Page:
 
     def strength(self):
         folder = self.results / "strength"
-        rows = [row | {"population": TITLES.get(row["population"], row["population"])} for row in from_csv(folder / "table.csv")]
+        rows = [row | {"population": TITLES.get(row["population"], row["population"]), "n_max": of_population(row, "n_max", ""),
+                       "critical_stress_pa": of_population(row, "critical_stress_pa", "_pa")} for row in from_csv(folder / "table.csv")]
         self.add("<h2>Section 3.4, Figs 8 and 9: rigid populations</h2>",
                  as_html(STRENGTH.values(), [[row[key] for key in STRENGTH] for row in rows]),
                  "<p>N_max in 6πμγ̇a². Elongation in the orientation to which the granule settles and in the worst; shear: largest over an "
-                 "orbit, mean over orbits. ±: half of the 95 % interval of the mean. Error: the largest that rigidstress states for one "
+                 "orbit, mean over orbits. ±: half of the 95 % interval of the mean; two granules: lowest to highest. Error: the largest that rigidstress states for one "
                  "granule.</p>",
                  figure(folder / "fig8.svg", "Fig. 8. Tension of each contact in elongation. Open symbols: one granule of each kind; dots: all others."),
                  figure(folder / "fig9.svg", "Fig. 9. Largest tension in shear. Dotted: mean of the largest over each orbit."))

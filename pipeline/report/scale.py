@@ -80,7 +80,7 @@ def command_line():
 
 def main(options):
     heading = ["N", "evaluations", "idle %", f"wall s, {os.cpu_count()} threads", "CPU s", "wall s, 1 thread", "speed-up",
-               "same bits", "ns a particle and evaluation", "growth", "bytes a particle", "d_c um", "h_c/d_c", "contacts",
+               "same bits", "ns a particle and evaluation", "growth", "bytes a particle", "d_c µm", "h_c/d_c", "contacts",
                "fragments"]
     with arguments.printing_to(options.out):
         print_markdown(heading, rows(options.dryer, options.scene, options.runs, options.numbers))

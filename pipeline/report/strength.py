@@ -23,9 +23,8 @@ CASES = [("settled", ("elongation", "n_max_settled"), ("elongation", "critical_s
          ("shear", ("shear", "n_max_orbit"), ("shear", "critical_stress_pa"))]
 
 
-def several(of, values):
-    """Of more than one value."""
-    return of(values) if len(values) > 1 else math.nan
+def several(of, values, least=2):
+    return of(values) if len(values) >= least else math.nan
 
 
 def rows(name, reports):
@@ -41,9 +40,11 @@ def rows(name, reports):
         paper = published.STRENGTH.get(name, {}).get(case, ("", ""))
         yield {"population": name, "agglomerates": len(n), "coordination": f"{coordination:.2f}", "flow": case,
                "n_max": f"{statistics.fmean(n):.2f}", "spread": f"{several(statistics.stdev, n):.2f}",
-               "half_width": f"{several(half_width, n):.2f}", "error_percent": f"{100 * error:.1f}",
+               "half_width": f"{several(half_width, n, 3):.2f}", "lowest": f"{min(n):.2f}", "highest": f"{max(n):.2f}",
+               "error_percent": f"{100 * error:.1f}",
                "critical_stress_pa": f"{statistics.fmean(critical):.0f}", "spread_pa": f"{several(statistics.stdev, critical):.0f}",
-               "half_width_pa": f"{several(half_width, critical):.0f}", "paper_n_max": paper[0], "paper_pa": paper[1],
+               "half_width_pa": f"{several(half_width, critical, 3):.0f}", "lowest_pa": f"{min(critical):.0f}",
+               "highest_pa": f"{max(critical):.0f}", "paper_n_max": paper[0], "paper_pa": paper[1],
                "cpu_s": f"{cpu:.3g}"}
 
 
@@ -87,7 +88,7 @@ def main(options):
 def show(table):
     widths = {key: max(len(key), *(len(str(row[key])) for row in table)) for key in table[0]}
     print("N_max in 6 pi mu gamma_dot a^2 and the flow stress that breaks the most loaded contact: mean, standard")
-    print("deviation and half of the 95 % interval of the mean; error: the largest that rigidstress states for one agglomerate.")
+    print("deviation, half of the 95 % interval of the mean of three and more, lowest and highest; error: the largest that rigidstress states for one agglomerate.")
     print("settled and worst orientation in planar elongation; shear: largest over an orbit, mean over orbits.")
     for row in [dict(zip(widths, widths))] + table:
         print("  ".join(str(row[key]).rjust(width) for key, width in widths.items()))
