@@ -116,11 +116,11 @@ def scene(panels, unit, caption, size=None):
 
 
 def timeless(png):
-    """Without the time that POV-Ray puts in: the same scene is the same file."""
+    """Without the time and the text with date and platform that POV-Ray puts in: the same scene is the same file."""
     out, at = png[:8], 8
     while at < len(png):
         end = at + 12 + int.from_bytes(png[at:at + 4], "big")
-        out += png[at:end] if png[at + 4:at + 8] != b"tIME" else b""
+        out += png[at:end] if png[at + 4:at + 8] not in (b"tIME", b"tEXt") else b""
         at = end
     return out
 
