@@ -11,6 +11,7 @@ import json
 import pathlib
 import re
 import statistics
+import sys
 import tempfile
 
 import h5py
@@ -56,6 +57,8 @@ def library():
 def view(files, tool):
     """The parts of the page that make the 3D view."""
     three = library()
+    if three is None:
+        print("without a 3D view: Debian's package libjs-three is not there", file=sys.stderr)
     heads, parts = [], [(HERE / "view.html").read_text(encoding="utf-8")]
     for k, path in enumerate(files if three else []):
         head, block = packed(path, tool, ROOM / len(files))

@@ -52,6 +52,8 @@ class Installation(unittest.TestCase):
         self.run_there("crumble", "check", "FILE=b.h5")
         self.run_there("crumble", "breakup", "AGGLOMERATE=a.h5", "SCENE=quick.toml", "OUT=broken.h5")
         self.assertTrue((self.work / "broken-course.csv").exists())
+        self.run_there("crumble", "report", "FILES=a.h5 b.h5", "OUT=page.html")
+        self.assertIn("b.h5: loads in a rigid granule", (self.work / "page.html").read_text(encoding="utf-8"))
         self.assertRegex(self.run_there("crumble", "help").stdout, r"(?m)^  table2 ")
 
     def test_the_module_is_there_and_takes_the_programs_beside_it(self):
