@@ -2,6 +2,7 @@
 
     campaign run my.toml -o results/my
     campaign run my.toml -o results/my --more-until "critical_stress 5 %"
+    campaign kernel my.toml -o results/my
 
 README.md beside this script explains the keys of my.toml.
 """
@@ -14,10 +15,12 @@ sys.path.insert(1, str(FOLDER.parent / "report"))
 
 import arguments  # noqa: E402
 import drawing  # noqa: E402
+import kernel  # noqa: E402
 import outcome  # noqa: E402
 import plan as plans  # noqa: E402
 import precision  # noqa: E402
 import runs as running  # noqa: E402
+import size_law  # noqa: E402
 import summary  # noqa: E402
 from scene_text import Fault  # noqa: E402
 
@@ -27,11 +30,19 @@ ROOT = FOLDER.parents[1]
 def command_line():
     parser = arguments.parser(__doc__)
     verbs = parser.add_subparsers(dest="verb", required=True)
+    add_kernel(verbs)
     run = verbs.add_parser("run", help="make what is missing, then tables and figures", allow_abbrev=False)
     add_common(run)
     run.add_argument("--jobs", type=int, help="runs side by side (default: the key 'jobs', else the number of processors)")
     run.add_argument("--more-until", metavar='"QUANTITY N %"', help="add granules until half of the 95 %% interval of this mean is N %% of it, at every point")
     return parser
+
+
+def add_kernel(verbs):
+    verb = verbs.add_parser("kernel", help="breakage kernel of the granules: FOLDER/kernel; makes what is missing", allow_abbrev=False)
+    add_common(verb)
+    verb.add_argument("--jobs", type=int)
+    verb.set_defaults(more_until=None)
 
 
 def add_common(verb):
@@ -95,10 +106,24 @@ def run(options):
     return 1 if any(row.failure for row in rows) else 0
 
 
+def make_kernel(options):
+    plan, runs, rows = granules(options)
+    try:
+        found = kernel.write(options.out / "kernel", plan, rows, runs)
+    except size_law.Refusal as why:
+        raise Fault(f"{options.campaign}: {why}") from None
+    for part in ("size_law", "rate_law", "fragments", "flexible_over_rigid"):
+        print(f"{part}: {'refused: ' + found[part]['refused'] if 'refused' in found[part] else 'in kernel.json'}")
+    for name, words in found["dictionaries"].items():
+        print(f"{name}: {words}")
+    print(f"kernel.json and its tables are in {options.out / 'kernel'}", file=sys.stderr)
+    return 0
+
+
 def main():
     options = command_line().parse_args()
     try:
-        return {"run": run}[options.verb](options)
+        return {"run": run, "kernel": make_kernel}[options.verb](options)
     except Fault as fault:
         print(fault, file=sys.stderr)
         return 2
