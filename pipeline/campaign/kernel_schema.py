@@ -115,7 +115,7 @@ def check(kernel, where):
         optional = meaning.endswith("?")
         known.append(path.replace("[]", "").split(".<")[0])
         values = list(_found(kernel, path))
-        if not values and not optional:
+        if not optional and (not values or None in values):
             raise Fault(f"{where}: {path} is missing")
         for value in values:
             if value is None and optional:

@@ -72,6 +72,15 @@ def _refuse_unknown(keys, known, where):
             raise Fault(f"{where}: unknown key '{key}'{_nearest(key, sorted(known))}")
 
 
+def _content(path):
+    """Of a file, or of all files of a folder with their names."""
+    digest = hashlib.sha256()
+    for file in sorted(path.iterdir()) if path.is_dir() else [path]:
+        with open(file, "rb") as data:
+            digest.update(f"{file.name if path.is_dir() else ''} {hashlib.file_digest(data, 'sha256').hexdigest()}\n".encode())
+    return digest.hexdigest()[:12]
+
+
 def _stage(stage, given, path, units, histories):
     where = f"{path}: [{stage}]"
     _refuse_unknown(given, STAGE_KEYS, where)
@@ -94,9 +103,9 @@ def _stage(stage, given, path, units, histories):
     history = scene_text.value_of(scene, "flow.history")
     if history is not None:  # under the name of its content: another history is another run
         source = base.parent / history
-        if not source.is_file():
-            raise Fault(f"{where}: flow.history = \"{history}\": no such file")
-        digest = hashlib.sha256(source.read_bytes()).hexdigest()[:12]
+        if not source.exists():
+            raise Fault(f"{where}: flow.history = \"{history}\": no such file or folder")
+        digest = _content(source)
         histories[f"{stage}/{digest}{source.suffix}"] = source
         scene = scene_text.changed(scene, {"flow.history": f"{digest}{source.suffix}"})
     return {"scene": scene, "count": count}

@@ -68,7 +68,7 @@ def main():
         parent = hashlib.sha256(pathlib.Path(inputs[1]).read_bytes()).hexdigest()
     if me.name == "rigidstress":
         results = {"elongation": {"critical_stress_settled_pa": strength, "critical_stress_worst_pa": 0.7 * strength}, "particles": 100,
-                   "particle_radius_nm": 100.0}
+                   "particle_radius_nm": 100.0, "scaled_by": 10.0}
         errors = {"n_max_relative": {"value": 0.01, "how": "stands in"}}
     if me.name == "breaker":
         largest = scene.get("protocol", {}).get("largest_stress", 1e9)
@@ -80,7 +80,8 @@ def main():
         made = file.create_group("parameters/provenance")
         made.attrs.update({"git": "0123456789", "dirty": 0, "seed": seed, **({"parent_sha256": parent} if parent else {})})
     pathlib.Path(f"{out}.tmp").replace(out)
-    report.write_text(json.dumps({"program": me.name, "results": results, "errors": errors, "cpu_s": 0.5}))
+    report.write_text(json.dumps({"program": me.name, "inputs": {"fluid": {"viscosity": 1e-3, "density": 997.0}, "material": {"surface_energy": 4.8e-3,
+        "youngs_modulus": 3.4e9, "poisson_ratio": 0.5}}, "results": results, "errors": errors, "cpu_s": 0.5}))
     checkpoint.unlink(missing_ok=True)
     return 0
 
