@@ -75,6 +75,8 @@ void add_straining(Report& report, const std::string& name, const Numbers& n, co
   add("attractor_n_max", tensions);
   add("n_max_mean_of_starts", r.mean_settled_tension / n.force);
   add("unsettled_share", r.unsettled);
+  add("device_settled", std::string(device_of(name)));
+  add("device_worst", std::string(device_of(name == "elongation" ? "turbulence" : name)));
 }
 
 void add_shear(Report& report, const Numbers& n, const ShearResult& r) {
@@ -95,6 +97,7 @@ void add_shear(Report& report, const Numbers& n, const ShearResult& r) {
   report.result("shear.n_max_supremum", r.supremum.tension / n.force);
   n.add_critical(report, "shear", "_supremum", r.supremum.use);
   report.result("shear.n_max_of_each_orbit", peaks);
+  report.result("shear.device", std::string(device_of("shear")));
   report.result("shear.contact", n.pair(worst.peak));
   report.result("shear.contact_distance_nm", n.distance_nm(worst.peak));
 }
