@@ -79,6 +79,7 @@ FirstExits first_exits(const LoadedBody& body, const Tracks& tracks, double wors
 
   const Uses uses(body);
   const TurningBody turning = body.turning(tolerance);
+  const std::vector<Quaternion> starts = even_orientations(seed, static_cast<int>(tracks.size));
   constexpr std::size_t together = 64;  // held at once
   for (std::size_t first = 0; first < tracks.size; first += together) {
     std::vector<GradientHistory> some;
@@ -87,8 +88,8 @@ FirstExits first_exits(const LoadedBody& body, const Tracks& tracks, double wors
 #pragma omp parallel for schedule(dynamic)
     for (std::ptrdiff_t j = 0; j < count; ++j) {
       const std::size_t k = first + static_cast<std::size_t>(j);
-      follow_exits(uses, turning, random_orientation(seed, static_cast<std::uint32_t>(k)),
-                   some[static_cast<std::size_t>(j)], threshold, &found.exit[k * found.level.size()]);
+      follow_exits(uses, turning, starts[k], some[static_cast<std::size_t>(j)], threshold,
+                   &found.exit[k * found.level.size()]);
     }
   }
   return found;

@@ -29,8 +29,8 @@ struct FirstExits {
 // 0.05 to 5, twelve a decade.
 std::vector<double> usual_levels();
 
-// Track k starts from random_orientation(seed, k). worst_use: use of pull-off in the worst orientation at a flow stress
-// of 1 Pa, > 0. tolerance: of the orientation in one step. Any number of threads gives the same bits.
+// Track k starts from even_orientations(seed, tracks)[k]. worst_use: use of pull-off in the worst orientation at a flow
+// stress of 1 Pa, > 0. tolerance: of the orientation in one step. Any number of threads gives the same bits.
 FirstExits first_exits(const LoadedBody& body, const Tracks& tracks, double worst_use, std::uint64_t seed,
                        double tolerance, std::vector<double> levels = usual_levels());
 

@@ -3,6 +3,7 @@
     campaign run my.toml -o results/my
     campaign run my.toml -o results/my --more-until "critical_stress 5 %"
     campaign kernel my.toml -o results/my
+    campaign strength my.toml -o results/my --liquid "syrup 0.1 Pa s 1200 kg/m3"
 
 README.md beside this script explains the keys of my.toml.
 """
@@ -13,6 +14,7 @@ import sys
 FOLDER = pathlib.Path(__file__).resolve().parent
 sys.path.insert(1, str(FOLDER.parent / "report"))
 
+import answer  # noqa: E402
 import arguments  # noqa: E402
 import drawing  # noqa: E402
 import kernel  # noqa: E402
@@ -31,6 +33,7 @@ def command_line():
     parser = arguments.parser(__doc__)
     verbs = parser.add_subparsers(dest="verb", required=True)
     add_kernel(verbs)
+    add_strength(verbs)
     run = verbs.add_parser("run", help="make what is missing, then tables and figures", allow_abbrev=False)
     add_common(run)
     run.add_argument("--jobs", type=int, help="runs side by side (default: the key 'jobs', else the number of processors)")
@@ -42,6 +45,15 @@ def add_kernel(verbs):
     verb = verbs.add_parser("kernel", help="breakage kernel of the granules: FOLDER/kernel; makes what is missing", allow_abbrev=False)
     add_common(verb)
     verb.add_argument("--jobs", type=int)
+    verb.set_defaults(more_until=None)
+
+
+def add_strength(verbs):
+    verb = verbs.add_parser("strength", help="at which shear rate in which liquid and device 10, 50, 90 %% of the granules break; makes what is missing", allow_abbrev=False)
+    add_common(verb)
+    verb.add_argument("--jobs", type=int)
+    verb.add_argument("--liquid", action="append", default=[], metavar='"NAME VISCOSITY Pa s DENSITY kg/m3"', help="beside that of the scene and blood")
+    verb.add_argument("--break-at", type=float, metavar="PA", help="also say which value of the varied key makes granules of which half break at this stress")
     verb.set_defaults(more_until=None)
 
 
@@ -120,10 +132,22 @@ def make_kernel(options):
     return 0
 
 
+def tell_strength(options):
+    liquids = [answer.liquid(text) for text in options.liquid]
+    plan, _, rows = granules(options)
+    text = answer.text(plan, rows, liquids)
+    if options.break_at is not None:
+        text += "\n" + answer.how_to_make(plan, rows, options.break_at)
+    with arguments.printing_to(options.out / "strength.md"):
+        print(text, end="")
+    print(text, end="")
+    return 0
+
+
 def main():
     options = command_line().parse_args()
     try:
-        return {"run": run, "kernel": make_kernel}[options.verb](options)
+        return {"run": run, "kernel": make_kernel, "strength": tell_strength}[options.verb](options)
     except Fault as fault:
         print(fault, file=sys.stderr)
         return 2

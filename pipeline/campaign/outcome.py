@@ -16,7 +16,7 @@ class Quantity:
     unit: str
     stage: str
     place: str          # in the results of the report
-    error: str = ""     # its relative error in the errors of the report
+    error: str = ""     # its relative errors in the errors of the report, which add up
     above: str = ""     # where nothing happened: the largest value that was tried (censored)
     meaning: str = ""
 
@@ -37,12 +37,12 @@ QUANTITIES = [
              meaning="rigid, planar elongation, settled"),
     Quantity("critical_stress_worst", "Pa", "stress", "elongation.critical_stress_worst_pa", "n_max_relative",
              meaning="rigid, elongation or shear, worst orientation"),
-    Quantity("critical_stress_shear", "Pa", "stress", "shear.critical_stress_pa", "n_max_relative",
+    Quantity("critical_stress_shear", "Pa", "stress", "shear.critical_stress_pa", "n_max_relative+shear_n_max_orbit_relative",
              meaning="rigid, shear, mean of the largest tensions of the orbits"),
     Quantity("critical_stress_uniaxial", "Pa", "stress", "uniaxial.critical_stress_settled_pa", "n_max_relative"),
     Quantity("critical_stress_biaxial", "Pa", "stress", "biaxial.critical_stress_settled_pa", "n_max_relative"),
     Quantity("n_max_elongation", "6 pi mu gamma_dot a^2", "stress", "elongation.n_max_settled", "n_max_relative"),
-    Quantity("n_max_shear", "6 pi mu gamma_dot a^2", "stress", "shear.n_max_orbit", "n_max_relative"),
+    Quantity("n_max_shear", "6 pi mu gamma_dot a^2", "stress", "shear.n_max_orbit", "n_max_relative+shear_n_max_orbit_relative"),
     Quantity("critical_stress_flexible", "Pa", "breakup", "critical_stress_pa", "critical_stress_relative", "largest_stress_pa",
              meaning="flexible, in the flow of its scene"),
     Quantity("first_rupture_stress", "Pa", "breakup", "first_rupture_stress_pa", "", "largest_stress_pa"),
@@ -93,9 +93,9 @@ def row(realisation, runs, sha256):
         if not known:
             continue
         found.values[quantity.name] = value
-        error = within(report["errors"], f"{quantity.error}.value")[0] if quantity.error else None
-        if error is not None:
-            found.errors[quantity.name] = error
+        errors = [one for name in quantity.error.split("+") if (one := within(report["errors"], f"{name}.value")[0]) is not None]
+        if errors:
+            found.errors[quantity.name] = sum(errors)
         if value is None and quantity.above:
             found.above[quantity.name] = report["results"][quantity.above]
     return found

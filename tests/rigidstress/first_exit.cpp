@@ -56,8 +56,7 @@ TEST(FirstExit, IsTheFirstInstantAtWhichTheOrbitOfThisStartBearsMoreThanTheThres
   for (std::size_t track = 0; track < tracks.size; ++track) {
     const GradientHistory h = wandering(track);
     const Orbit orbit = follow(
-        body, random_orientation(3, static_cast<std::uint32_t>(track)), h.times(), [&](double t) { return h(t); },
-        1e-8);
+        body, even_orientations(3, 20)[track], h.times(), [&](double t) { return h(t); }, 1e-8);
     EXPECT_NEAR(found.duration[track], 1.19, 1e-12);
     for (std::size_t k = 0; k < found.level.size(); ++k) {
       // Equal spheres: use is tension over the one pull-off force.
