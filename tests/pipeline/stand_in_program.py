@@ -67,7 +67,8 @@ def main():
     else:
         parent = hashlib.sha256(pathlib.Path(inputs[1]).read_bytes()).hexdigest()
     if me.name == "rigidstress":
-        results = {"elongation": {"critical_stress_settled_pa": strength, "critical_stress_worst_pa": 0.7 * strength}, "particles": 100,
+        results = {"elongation": {"critical_stress_settled_pa": strength, "critical_stress_worst_pa": 0.7 * strength,
+                   "device_settled": "a device at rest", "device_worst": "a device of the worst"}, "particles": 100,
                    "particle_radius_nm": 100.0, "scaled_by": 10.0}
         errors = {"n_max_relative": {"value": 0.01, "how": "stands in"}}
     if me.name == "breaker":
