@@ -73,6 +73,11 @@ class Row:
         return self.realisation.point
 
     @property
+    def ids(self):
+        """Stage -> id of its files, of those that are there."""
+        return {run.stage: run.id for run in self.realisation.runs if run.stage in self.hashes}
+
+    @property
     def id(self):
         return self.realisation.runs[0].id
 
@@ -119,12 +124,13 @@ def write(path, plan, rows):
     stages = [stage for stage in PROGRAMS if any(stage in row.hashes for row in rows)]
     heading = ["id", "seed", *(f"{key} [{plan.unit(key) or '1'}]" for key in plan.varied), *(q.heading for q in quantities),
                *(f"{q.name}_above [{q.unit}]" for q in censored), *(f"{q.name}_error [relative]" for q in judged),
-               *(f"{stage}_cpu [s]" for stage in stages), *(f"{stage}_sha256" for stage in stages), *(["failed"] if failed else [])]
+               *(f"{stage}_id" for stage in stages if stage != "dry"), *(f"{stage}_cpu [s]" for stage in stages), *(f"{stage}_sha256" for stage in stages), *(["failed"] if failed else [])]
     lines = []
     for row in rows:
         lines.append([row.id, row.realisation.runs[0].scene["run"]["seed"], *(_cell(row.point.get(key)) for key in plan.varied),
                       *(_cell(row.values.get(q.name)) for q in quantities), *(_cell(row.above.get(q.name)) for q in censored),
-                      *(_cell(row.errors.get(q.name)) for q in judged), *(_cell(row.reports.get(stage, {}).get("cpu_s")) for stage in stages),
+                      *(_cell(row.errors.get(q.name)) for q in judged), *(row.ids.get(stage, "") for stage in stages if stage != "dry"),
+                      *(_cell(row.reports.get(stage, {}).get("cpu_s")) for stage in stages),
                       *(row.hashes.get(stage, "") for stage in stages),
                       *([f"{row.failure.stage}, exit code {row.failure.code}: {row.failure.words}" if row.failure else ""] if failed else [])])
     write_csv(path, heading, lines, [f"{plan.path.name}: one row a granule; an empty cell was not computed or has no value; "
