@@ -102,7 +102,7 @@ def _stage(stage, given, path, units, histories):
         raise Fault(f"{where}.count: of how many granules at each point, 1 or more; not of the dryer, whose number 'seeds' says")
     history = scene_text.value_of(scene, "flow.history")
     if history is not None:  # under the name of its content: another history is another run
-        source = base.parent / history
+        source = (path if "flow.history" in given.get("set", {}) else base).parent / history
         if not source.exists():
             raise Fault(f"{where}: flow.history = \"{history}\": no such file or folder")
         digest = _content(source)

@@ -43,7 +43,7 @@ class Manual:
         for name in ("pipeline", "build"):
             (folder / name).mkdir()
         (folder / "build/release").symlink_to(BUILD)
-        for name in ("scenes", "python"):
+        for name in ("scenes", "python", "tracks"):
             (folder / "pipeline" / name).symlink_to(ROOT / "pipeline" / name)
         (folder / "data").symlink_to(ROOT / "data")
         self.targets = set(re.findall(r"(?m)^([a-z0-9-]+):", (ROOT / "pipeline/Makefile").read_text(encoding="utf-8")))
