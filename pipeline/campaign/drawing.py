@@ -53,9 +53,9 @@ def strengths(plan, rows, quantity, out):
     axes.set(xscale="log", xlabel=f"{quantity.name.replace('_', ' ')}, {quantity.unit}", ylabel="granules that break below")
     axes.xaxis.set_minor_formatter(NullFormatter())
     low, high = axes.get_xlim()
-    ticks = [tick for power in range(-3, 9) for tick in (10.0**power * step for step in (1, 2, 3, 4, 5, 7)) if low <= tick <= high]
+    ticks = [tick for power in range(-3, 9) for tick in (10.0**power * step for step in ((1, 2, 3, 4, 5, 7) if high < 4 * low else (1, 2, 5))) if low <= tick <= high]
     axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
-    axes.legend(frameon=False, fontsize=7)
+    axes.legend(frameon=False, fontsize=7, loc="lower right")
     save(figure, out)
     return True
 
