@@ -10,7 +10,7 @@ import sample
 FEWEST_CLASSES, FEWEST_GRANULES = 3, 5   # of each class
 SMALLEST_SPAN = 1.5                      # largest over smallest radius
 FALSE_ALARMS = 0.01
-WIDEST = 0.25                            # half of the interval of the exponent, above which it says nothing
+WIDEST = 0.25, 0.15                      # half of the interval of the exponent, absolute and of the exponent, above both of which it says nothing
 RESAMPLES = 2000
 
 
@@ -80,7 +80,7 @@ def fit(classes):
         drawn.append((r[chosen].mean(-1), s[chosen].mean(-1)))
     intercepts, slopes = _line(numpy.array([r for r, _ in drawn]).T, numpy.array([s for _, s in drawn]).T, weight)
     low, high = numpy.quantile(-slopes, (0.025, 0.975))
-    if 0.5 * (high - low) > WIDEST:
-        raise Refusal(f"the exponent is {-b:.2g} with an interval from {low:.2g} to {high:.2g}: too wide to say anything (more than ± {WIDEST})")
+    if 0.5 * (high - low) > max(WIDEST[0], WIDEST[1] * abs(b)):
+        raise Refusal(f"the exponent is {-b:.2g} with an interval from {low:.2g} to {high:.2g}: too wide (more than ± {WIDEST[0]} and ± {100 * WIDEST[1]:.0f} %)")
     return SizeLaw(float(-b), float(math.exp(a)), (float(low), float(high)), numpy.cov(-slopes, intercepts).tolist(), float(math.exp(x.min())),
                    float(math.exp(x.max())), float(abs(residual).max()), p, len(classes))
