@@ -89,6 +89,8 @@ void run_flows(Analysis& analysis, const StressScene& scene, DoneParts& done) {
     if (scene.history)
       b.history = follow_history(b.loaded, *scene.history, scene.orbit.starts, scene.orbit.tolerance,
                                  {&done, "history, orbit"});
+    if (scene.tracks && b.worst.use > 0)
+      b.exits = first_exits(b.loaded, *scene.tracks, b.worst.use, scene.seed, scene.orbit.tolerance);
   }
 }
 

@@ -16,6 +16,7 @@ struct BodyResult {
   std::optional<StrainingResult> elongation, uniaxial, biaxial;
   std::optional<ShearResult> shear;
   std::optional<HistoryResult> history;
+  std::optional<FirstExits> exits;
 };
 
 struct Analysis {

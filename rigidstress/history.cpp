@@ -81,18 +81,23 @@ struct Row {
   Eigen::Matrix3d gradient;
 };
 
-Row parse_row(const text::Csv& csv, const Columns& columns, const std::string& where) {
-  double value[10];
-  for (std::size_t k = 0; k < 10; ++k) value[k] = csv.number(k);
-  Row row{value[columns[0]], {}};
-  for (int k = 0; k < 9; ++k) row.gradient(k / 3, k % 3) = value[columns[static_cast<std::size_t>(k) + 1]];
-  const double trace = row.gradient.trace(), size = row.gradient.norm();
-  if (std::abs(trace) > 0.01 * size)
+// The gradient without its trace, which must be small.
+Eigen::Matrix3d traceless(Eigen::Matrix3d gradient, const std::string& where) {
+  const double trace = gradient.trace(), size = gradient.norm();
+  if (!(std::abs(trace) <= 0.01 * size))
     throw InputError(
         fmt::format("{}: the trace of the velocity gradient is {:.3g} 1/s, {:.2g} of its norm: the fluid is "
                     "incompressible, it must vanish (do the names of the columns fit the numbers?)",
                     where, trace, std::abs(trace) / size));
-  row.gradient.diagonal().array() -= trace / 3;
+  gradient.diagonal().array() -= trace / 3;
+  return gradient;
+}
+
+Row parse_row(const text::Csv& csv, const Columns& columns) {
+  double value[10];
+  for (std::size_t k = 0; k < 10; ++k) value[k] = csv.number(k);
+  Row row{value[columns[0]], {}};
+  for (int k = 0; k < 9; ++k) row.gradient(k / 3, k % 3) = value[columns[static_cast<std::size_t>(k) + 1]];
   return row;
 }
 
@@ -107,24 +112,39 @@ GradientHistory GradientHistory::read(const std::string& file, double largest_st
 }
 
 GradientHistory GradientHistory::parse(const std::string& text, const std::string& name, double largest_step) try {
-  GradientHistory history;
+  std::vector<double> time;
+  std::vector<Eigen::Matrix3d> gradient;
   std::vector<int> line_of;
   text::Csv csv(text, name, "t [s], dux/dx [1/s], dux/dy [1/s], ... duz/dz [1/s]");
-  const auto where = [&] { return fmt::format("{}:{}", name, csv.lines().number()); };
-  const Columns columns = read_header(csv.names(), where());
+  const Columns columns = read_header(csv.names(), fmt::format("{}:{}", name, csv.lines().number()));
   while (csv.next()) {
-    const Row row = parse_row(csv, columns, where());
-    if (!history.time_.empty() && row.time <= history.time_.back())
-      throw InputError(fmt::format("{}: time {:g} s does not follow {:g} s of line {}: times must increase", where(),
-                                   row.time, history.time_.back(), line_of.back()));
-    history.time_.push_back(row.time);
-    history.gradient_.push_back(row.gradient);
+    const Row row = parse_row(csv, columns);
+    time.push_back(row.time);
+    gradient.push_back(row.gradient);
     line_of.push_back(csv.lines().number());
+  }
+  return of(std::move(time), std::move(gradient), name, largest_step,
+            [&](std::size_t k) { return fmt::format("{}:{}", name, line_of[k]); });
+} catch (const text::TextError& error) {
+  throw InputError(error.what());
+}
+
+GradientHistory GradientHistory::of(std::vector<double> time, std::vector<Eigen::Matrix3d> gradient,
+                                    const std::string& name, double largest_step, const Place& place) {
+  GradientHistory history;
+  history.time_ = std::move(time);
+  history.gradient_ = std::move(gradient);
+  std::vector<double> intervals;
+  for (std::size_t k = 0; k < history.time_.size(); ++k) {
+    history.gradient_[k] = traceless(history.gradient_[k], place(k));
+    if (k == 0) continue;
+    intervals.push_back(history.time_[k] - history.time_[k - 1]);
+    if (!(intervals.back() > 0))
+      throw InputError(fmt::format("{}: time {:g} s does not follow {:g} s of {}: times must increase", place(k),
+                                   history.time_[k], history.time_[k - 1], place(k - 1)));
   }
   if (history.time_.size() < 2) throw InputError(name + ": a history needs a header and at least two instants");
 
-  std::vector<double> intervals;
-  for (std::size_t k = 1; k < history.time_.size(); ++k) intervals.push_back(history.time_[k] - history.time_[k - 1]);
   std::vector<double> sorted = intervals;
   std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
   const double median = sorted[sorted.size() / 2];
@@ -132,16 +152,23 @@ GradientHistory GradientHistory::parse(const std::string& text, const std::strin
     const double strain = intervals[k] * std::max(rate_of(history.gradient_[k]), rate_of(history.gradient_[k + 1]));
     if (strain > largest_step)
       throw InputError(
-          fmt::format("{}:{}: in the {:g} s since line {} the flow strains by {:.3g}, more than {:g}: too "
+          fmt::format("{}: in the {:g} s since {} the flow strains by {:.3g}, more than {:g}: too "
                       "coarse to interpolate (is the time in s and the gradient in 1/s?)",
-                      name, line_of[k + 1], intervals[k], line_of[k], strain, largest_step));
+                      place(k + 1), intervals[k], place(k), strain, largest_step));
     if (intervals[k] > 10 * median)
-      throw InputError(fmt::format("{}:{}: a gap in time: {:g} s since line {}, where the median interval is {:g} s",
-                                   name, line_of[k + 1], intervals[k], line_of[k], median));
+      throw InputError(fmt::format("{}: a gap in time: {:g} s since {}, where the median interval is {:g} s",
+                                   place(k + 1), intervals[k], place(k), median));
   }
   return history;
-} catch (const text::TextError& error) {
-  throw InputError(error.what());
+}
+
+double GradientHistory::mean_square_rate() const {
+  double sum = 0;
+  for (std::size_t k = 1; k < time_.size(); ++k) {
+    const double before = rate_of(gradient_[k - 1]), after = rate_of(gradient_[k]);
+    sum += 0.5 * (time_[k] - time_[k - 1]) * (before * before + after * after);
+  }
+  return sum / (time_.back() - time_.front());
 }
 
 Eigen::Matrix3d GradientHistory::operator()(double time) const {

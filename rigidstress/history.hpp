@@ -1,6 +1,7 @@
 // A measured or computed velocity-gradient history, as a particle sees it on its way through a turbulent flow.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -19,9 +20,16 @@ class GradientHistory {
   static GradientHistory read(const std::string& file, double largest_step = 1);
   static GradientHistory parse(const std::string& text, const std::string& name, double largest_step = 1);
 
+  // The same checks of numbers from elsewhere; place(k): where instant k stands, for messages.
+  using Place = std::function<std::string(std::size_t)>;
+  static GradientHistory of(std::vector<double> time, std::vector<Eigen::Matrix3d> gradient, const std::string& name,
+                            double largest_step, const Place& place);
+
   Eigen::Matrix3d operator()(double time) const;
+  const Eigen::Matrix3d& at(std::size_t instant) const { return gradient_[instant]; }
   const std::vector<double>& times() const { return time_; }
-  double largest_rate() const;  // largest sqrt(2 E:E), 1/s
+  double largest_rate() const;      // largest sqrt(2 E:E), 1/s
+  double mean_square_rate() const;  // 2 E:E, mean over time, 1/s^2
 
  private:
   std::vector<double> time_;               // s

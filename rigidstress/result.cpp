@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <limits>
 #include <numbers>
 
@@ -74,6 +75,8 @@ void add_straining(Report& report, const std::string& name, const Numbers& n, co
   add("attractor_n_max", tensions);
   add("n_max_mean_of_starts", r.mean_settled_tension / n.force);
   add("unsettled_share", r.unsettled);
+  add("device_settled", std::string(device_of(name)));
+  add("device_worst", std::string(device_of(name == "elongation" ? "turbulence" : name)));
 }
 
 void add_shear(Report& report, const Numbers& n, const ShearResult& r) {
@@ -94,6 +97,7 @@ void add_shear(Report& report, const Numbers& n, const ShearResult& r) {
   report.result("shear.n_max_supremum", r.supremum.tension / n.force);
   n.add_critical(report, "shear", "_supremum", r.supremum.use);
   report.result("shear.n_max_of_each_orbit", peaks);
+  report.result("shear.device", std::string(device_of("shear")));
   report.result("shear.contact", n.pair(worst.peak));
   report.result("shear.contact_distance_nm", n.distance_nm(worst.peak));
 }
@@ -109,6 +113,17 @@ void add_history(Report& report, const Numbers& n, const HistoryResult& r, const
   n.add_critical(report, "history", "", worst.peak.use / rate);
   report.result("history.time_s", worst.time[worst.peak_at]);
   report.result("history.contact", n.pair(worst.peak));
+}
+
+void add_exits(Report& report, const FirstExits& found) {
+  const ExitCounts counts = count_exits(found);
+  report.result("tracks.count", static_cast<std::int64_t>(found.duration.size()));
+  report.result("tracks.rms_rate_per_s", found.rms_rate);
+  report.result("tracks.level", found.level);
+  report.result("tracks.time_s", counts.time);
+  report.result("tracks.born_above", counts.born);
+  report.result("tracks.exits", counts.exits);
+  report.result("tracks.exposure_s", counts.exposure);
 }
 
 void add_drag(Report& report, const Numbers& n) {
@@ -157,6 +172,7 @@ void fill_report(Report& report, const Analysis& a, const StressScene& scene) {
   if (n.body.uniaxial) add_straining(report, "uniaxial", n, *n.body.uniaxial);
   if (n.body.biaxial) add_straining(report, "biaxial", n, *n.body.biaxial);
   if (n.body.history) add_history(report, n, *n.body.history, scene);
+  if (n.body.exits) add_exits(report, *n.body.exits);
 
   const bool restored = a.restored;
   report.error("n_max_relative", a.error, a.how);
@@ -259,6 +275,20 @@ std::string result_text(const Analysis& a, const StressScene& scene) {
     const double use = scene.liquid.viscosity * worst.peak.use;
     text += fmt::format("history: {:.3g} % of the pull-off force at t = {:g} s{}\n", 100 * use,
                         worst.time[worst.peak_at], use >= 1 ? ": it breaks" : "");
+  }
+  if (const auto& r = n.body.exits) {
+    const double here = scene.liquid.viscosity * r->rms_rate * n.body.worst.use;  // the level of this liquid
+    text += fmt::format("{} tracks, sqrt(<2 E:E>) = {:.3g} 1/s: {:.3g} of the strength in this liquid\n",
+                        r->duration.size(), r->rms_rate, here);
+    text += fmt::format("{:<34}{:>8}{:>8}\n", "rms stress over strength", "broken", "of them at once");
+    for (std::size_t k = 0; k < r->level.size(); k += 4) {
+      std::size_t broken = 0, born = 0;
+      for (std::size_t track = 0; track < r->duration.size(); ++track) {
+        broken += std::isfinite(r->at(track, k));
+        born += r->at(track, k) == 0;
+      }
+      text += fmt::format("{:<34.3g}{:>8}{:>8}\n", r->level[k], broken, born);
+    }
   }
   return text;
 }

@@ -8,6 +8,7 @@
 
 #include "common/io/plausible.hpp"
 #include "common/io/shared_parameters.hpp"
+#include "rigidstress/track_files.hpp"
 
 namespace crumble::rigidstress {
 
@@ -71,8 +72,10 @@ const ParameterTable& stress_parameters() {
         P::flag("shear", "Simple shear, tumbling orbits (paper, 3.4)").by_default(true),
         P::flag("uniaxial", "Uniaxial extension").by_default(false),
         P::flag("biaxial", "Biaxial extension").by_default(false),
-        P::text("history",
-                "CSV file of time [s] and nine components of the velocity gradient [1/s], as seen from the scene")
+        P::text(
+            "history",
+            "CSV file of time [s] and nine components of the velocity gradient [1/s], as seen from the scene; or many: "
+            "a folder of such files, or an HDF5 file of tracks, for first exits over the strength")
             .optional(),
         P::real("largest_history_step", "", "A longer strain between two rows of the history is refused")
             .above(0)
@@ -128,10 +131,21 @@ std::vector<Quaternion> starts(const Scene& scene, std::uint64_t seed) {
 
 }  // namespace
 
+namespace {
+
+std::string history_name(const Scene& scene) {
+  return (std::filesystem::path(scene.file()).parent_path() / scene.text("flow.history")).string();
+}
+
+}  // namespace
+
 std::vector<ReadFile> history_files(const Scene& scene) {
   if (!scene.is_set("flow.history")) return {};
-  const auto file = std::filesystem::path(scene.file()).parent_path() / scene.text("flow.history");
-  return {{"the history", file.string()}};
+  const std::string name = history_name(scene);
+  if (!is_many_tracks(name)) return {{"the history", name}};
+  std::vector<ReadFile> files;
+  for (const std::string& file : track_files(name)) files.push_back({"a track", file});
+  return files;
 }
 
 StressScene stress_scene(const Scene& scene) {
@@ -172,7 +186,15 @@ StressScene stress_scene(const Scene& scene) {
     throw scene.error("flow.sample", fmt::format("makes {:.2g} instants of every orbit; at least {:g} makes {:g}",
                                                  s.orbit.strain / s.orbit.sample, s.orbit.strain / most, most));
   if (scene.is_set("flow.history")) {
-    s.history = GradientHistory::read(history_files(scene).front().name, scene.real("flow.largest_history_step"));
+    const std::string name = history_name(scene);
+    const double step = scene.real("flow.largest_history_step");
+    if (is_many_tracks(name)) {
+      if (scene.is_set("flow.orientation"))
+        throw scene.error("flow.orientation", "many tracks start from as many random orientations");
+      s.tracks = read_tracks(name, step);
+    } else {
+      s.history = GradientHistory::read(name, step);
+    }
   }
   return s;
 }

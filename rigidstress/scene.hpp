@@ -8,6 +8,7 @@
 #include "common/io/parameters.hpp"
 #include "common/io/service_load.hpp"
 #include "common/rigid/joint.hpp"
+#include "rigidstress/first_exit.hpp"
 #include "rigidstress/flows.hpp"
 #include "rigidstress/history.hpp"
 #include "rigidstress/hydrodynamic_choice.hpp"
@@ -28,6 +29,7 @@ struct StressScene {
   HydrodynamicChoice hydrodynamics;
   bool elongation = true, shear = true, uniaxial = false, biaxial = false;
   std::optional<GradientHistory> history;
+  std::optional<Tracks> tracks;  // many histories
   StrainingChoice straining;
   ShearChoice orbit;                // its starts and tolerance are those of the history, too
   double checkpoint_interval = 60;  // s of wall time

@@ -1,11 +1,12 @@
 """How must I dry to get a granule that breaks at this stress? Granules over Peclet number, number and solids.
 
-The table and, for a few stresses, which Peclet number gives them. Beside FILE.md are written FILE.csv and FILE.svg. Beside every report
-NAME.json of dryer lies that of rigidstress, NAME-load.json. What was dried is read from the reports.
+The table and, for a few stresses, which Peclet number gives them. Beside FILE.md are written FILE.csv and FILE.svg. Granules are those of a campaign, by its
+table; what was dried is read from the reports.
 
-    map.py 1_85_215_1.json 10_85_215_1.json 100_85_215_1.json -o map.md
+    map.py results/map/granules.csv -o map.md
 """
 
+import csv
 import json
 import math
 import statistics
@@ -23,8 +24,14 @@ STRESSES = (2000, 3000, 4000, 5000, 6000, 8000)  # Pa
 
 
 def read(path):
-    dried = json.loads(path.read_text())
-    load = json.loads(path.with_name(path.stem + "-load.json").read_text())["results"]
+    with path.open(encoding="utf-8", newline="") as file:
+        for row in csv.DictReader(line for line in file if not line.startswith("#")):
+            if row.get("stress_id"):  # else it failed
+                yield granule(path.parent / f"dry/{row['id']}.json", path.parent / f"stress/{row['stress_id']}.json")
+
+
+def granule(dry, stress):
+    dried, load = json.loads(dry.read_text()), json.loads(stress.read_text())["results"]
     r = dried["results"]
     # The flow stress at which the weakest contact gives way in the orientation to which a granule settles in elongation.
     return {"peclet": float(f"{r['inputs']['peclet']:.9g}"), "number": r["inputs"]["number"], "solids": r["inputs"]["solids_fraction"],
@@ -102,7 +109,7 @@ def panel(axes, scan, x, name, label, colour):
     axes.plot(places, [row[name] for row in scan], "o-", color=colour, markersize=3)
     axes.fill_between(places, [row[name + "_lowest"] for row in scan], [row[name + "_highest"] for row in scan], color=colour,
                       alpha=0.2, linewidth=0)
-    top = max(row[name + "_highest"] for row in scan if not math.isnan(row[name]))
+    top = max((row[name + "_highest"] for row in scan if not math.isnan(row[name])), default=1)
     axes.set(ylabel=label, xscale="log", ylim=(0, 1.1 * top))
 
 
@@ -134,12 +141,12 @@ def draw(table, out):
 
 def command_line():
     parser = arguments.parser(__doc__, "the table", "FILE.md")
-    arguments.add_files(parser, "reports of dryer", "REPORT.json")
+    parser.add_argument("table", type=arguments.file, metavar="granules.csv", help="of the campaign, its files beside it")
     return parser
 
 
 def main(options):
-    table = list(rows([read(path) for path in options.files]))
+    table = list(rows(list(read(options.table))))
     write_records(options.out.with_suffix(".csv"), table)
     draw(table, options.out.with_suffix(".svg"))
     with arguments.printing_to(options.out):

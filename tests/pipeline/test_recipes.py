@@ -21,7 +21,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BUILD = os.environ.get("CRUMBLE_BUILD", ROOT / "build/release")
-MANUALS = ["README.md", "dryer/README.md", "breaker/README.md", "rigidstress/README.md", "common/io/README.md", "pipeline/TUTORIAL.md"]
+MANUALS = ["README.md", "dryer/README.md", "breaker/README.md", "rigidstress/README.md", "common/io/README.md", "pipeline/TUTORIAL.md", "pipeline/campaign/README.md", "pipeline/campaign/KERNEL.md"]
 PROGRAM = re.compile(r"build/release/bin/(dryer|breaker|rigidstress)\b")
 BLOCK = re.compile(r"(?ms)(?:^<!-- (run with|not run): ([^\n]*?) -->\n+)?^```(sh|toml|python|text)\n(.*?)^```$")
 # With the unit of a time, which is min instead of s on a slow machine.
@@ -43,7 +43,7 @@ class Manual:
         for name in ("pipeline", "build"):
             (folder / name).mkdir()
         (folder / "build/release").symlink_to(BUILD)
-        for name in ("scenes", "python"):
+        for name in ("scenes", "python", "tracks"):
             (folder / "pipeline" / name).symlink_to(ROOT / "pipeline" / name)
         (folder / "data").symlink_to(ROOT / "data")
         self.targets = set(re.findall(r"(?m)^([a-z0-9-]+):", (ROOT / "pipeline/Makefile").read_text(encoding="utf-8")))

@@ -350,6 +350,57 @@ class Program(unittest.TestCase):
         self.assertEqual(run.returncode, 2)
         self.assertIn("flow.csv:21", run.stderr)
 
+    def test_many_tracks_in_a_folder_and_in_one_file_are_the_same_flow(self):
+        granule = self.agglomerate(dodecahedron(200))
+        sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "pipeline/tracks"))
+        import gaussian
+        import store
+        rate, time = 1e6, numpy.arange(200) * 1e-7
+        gradient = rate * gaussian.gradients(12, 200, 0.1, 5)
+        store.write(self.folder / "tracks.h5", time, gradient, "made")
+        (self.folder / "tracks").mkdir()
+        names = [f"du{i}/d{j} [1/s]" for i in "xyz" for j in "xyz"]
+        for k, track in enumerate(gradient):
+            rows = [",".join(map(repr, [float(t), *map(float, g.ravel())])) for t, g in zip(time, track)]
+            (self.folder / f"tracks/{k:03}.csv").write_text("\n".join([",".join(["t [s]", *names]), *rows]) + "\n")
+        found = {}
+        for name in ("tracks.h5", "tracks"):
+            scene = self.folder / f"{name}.toml"
+            scene.write_text(f'[hydrodynamics]\nmethod = "fts"\n[flow]\nelongation = false\nshear = false\nhistory = "{name}"\n')
+            report, run, _ = self.stress(granule, scene=scene)
+            found[name] = report["results"]["tracks"]
+            self.assertIn("12 tracks, sqrt(<2 E:E>) = ", run.stdout)
+        for key, values in found["tracks"].items():  # the trace is taken out of each: to round-off the same numbers
+            numpy.testing.assert_allclose(values, found["tracks.h5"][key], rtol=1e-9, err_msg=key)
+        self.assertEqual(found["tracks"]["count"], 12)
+        strain = 0.5 * (gradient + gradient.swapaxes(-1, -2))
+        square = 2 * (strain**2).sum((-1, -2))
+        mean = (0.5 * (square[:, 1:] + square[:, :-1])).mean()
+        self.assertAlmostEqual(found["tracks"]["rms_rate_per_s"] / mean**0.5, 1, 9)
+        levels, intervals = len(found["tracks"]["level"]), len(found["tracks"]["time_s"]) - 1
+        exits = numpy.reshape(found["tracks"]["exits"], (levels, intervals)).sum(1) + found["tracks"]["born_above"]
+        self.assertTrue(all(a <= b for a, b in zip(exits, exits[1:])))  # a stronger flow breaks no fewer
+        self.assertEqual((exits[0], exits[-1]), (0, 12))
+
+    def test_tracks_that_are_not_tracks_are_refused_by_name(self):
+        granule = self.agglomerate([[0, 0, 0], [200, 0, 0]])
+        (self.folder / "empty").mkdir()
+        with h5py.File(self.folder / "bad.h5", "w") as file:
+            file["time"] = [0.0, 1e-7]
+            file["gradient"] = numpy.zeros((2, 3, 3, 3))
+            file["gradient"].attrs["unit"] = "1/s"
+        scene = self.folder / "scene.toml"
+        for name, words in (("empty", "a folder without .csv files"), ("bad.h5", "attribute unit = ''"), ("no.h5", "no.h5")):
+            scene.write_text(f'[flow]\nhistory = "{name}"\n')
+            run = self.run_it(scene, granule, "-o", self.folder / "r.h5")
+            self.assertIn(run.returncode, (2, 3), name)
+            self.assertIn(words, run.stderr)
+        with h5py.File(self.folder / "bad.h5", "a") as file:
+            file["time"].attrs["unit"] = "s"
+        scene.write_text('[flow]\nhistory = "bad.h5"\n')
+        run = self.run_it(scene, granule, "-o", self.folder / "r.h5")
+        self.assertIn("expected tracks x instants x 3 x 3", run.stderr)
+
 
 if __name__ == "__main__":
     unittest.main(argv=[sys.argv[0]])
