@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "common/io/plausible.hpp"
-#include "common/io/progress.hpp"
 #include "dryer/drag.hpp"
 #include "dryer/outcome.hpp"
 #include "dryer/scene.hpp"
@@ -85,10 +84,13 @@ std::string conditions_table(const Conditions& c) {
     text += line("wet bulb at the end of the history", fmt::format("{:.2f} C", g.last_wet_bulb - ice));
   text += line("droplet",
                fmt::format("{:.4g} um in radius, {:.2f} C at the start", 1e6 * c.radius, g.droplet.temperature - ice));
+  if (g.size < 1)
+    text += line("  which stands for one of", fmt::format("{:.4g} um, dry after {:.4g} s: gas and heat are its",
+                                                          1e6 * g.droplet.radius, g.course.curve.lifetime()));
   if (g.largest_radius > g.droplet.radius * (1 + 1e-9))
     text += line("condensation at first",
                  fmt::format("the radius grows by {:.2g} %", 100 * (g.largest_radius / g.droplet.radius - 1)));
-  text += line("warms up within", duration_text(g.heat_up_time * g.pace));
+  text += line("warms up within", fmt::format("{:.2g} s", g.heat_up_time * g.pace));
   text += line("dry after", fmt::format("{:.4g} s", tau));
   text += line("k at the wet bulb", fmt::format("{:.4g} m2/s", g.evaporation_constant));
   text += line("k, mean over the lifetime", fmt::format("{:.4g} m2/s", c.radius * c.radius / tau));

@@ -35,7 +35,11 @@ class Front {
 
   double radius(double time) const { return droplet_.radius(reduced(time)); }
   // Instants at which the front is at R and at which the liquid is gone, as things stand, s.
-  double time_at(double R) const { return time_of(droplet_.time_at(R)); }
+  // Without a curve the compiler contracts the last product of Eq. 7 with what follows; one path for both would not.
+  double time_at(double R) const {
+    if (droplet_.curve) return time_of(droplet_.curve->time_at(R));
+    return time_of(droplet_.time_at(R));
+  }
   double end() const { return time_of(droplet_.lifetime); }
 
   // Time for which a droplet without a crust would have dried so far, s, and when it will have dried for `reduced`.

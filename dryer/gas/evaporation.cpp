@@ -108,11 +108,13 @@ Evaporation evaporation(const EvaporatingDroplet& droplet, const GasHistory& gas
   double time = 0, dt = 1e-6 / std::max(change(), std::abs(now[1]) / y[1]);
   std::vector<DryingCurve::Node> nodes{{0, y[0], now[0], y[1], now[1]}};
   constexpr int most_steps = 200000;
-  for (int step = 0; y[0] > droplet.last_radius * droplet.last_radius; ++step) {
+  const double last_square = droplet.last_radius * droplet.last_radius;
+  for (int step = 0; y[0] > last_square * (1 + 1e-9); ++step) {
     if (step == most_steps)
       throw std::domain_error(fmt::format("after {:.3g} s the droplet has still not dried", time));
-    // No step changes R^2 by more than a tenth; steps end at the instants of the history.
+    // No step changes R^2 by more than a tenth; steps end at the instants of the history and aim at last_radius.
     dt = std::min(dt, 0.1 / change());
+    if (now[0] < 0) dt = std::min(dt, (y[0] - last_square) / -now[0]);
     const bool ends = passed < gas.times().size() && gas.times()[passed] - time <= dt;
     const double tried = ends ? gas.times()[passed] - time : dt;
     const Step next = try_step(slope_at, time, y, now, linear(slope_at, time, y, tried), tried, tolerance);
