@@ -33,13 +33,10 @@ class Front {
  public:
   Front(const Droplet& droplet, double relative_diffusivity) : droplet_(droplet), relative_(relative_diffusivity) {}
 
-  double radius(double time) const { return droplet_.radius(reduced(time)); }
+  // Out of line, both: inlined where the droplet may or may not follow a curve, the compiler rounds Eq. 7 otherwise.
+  double radius(double time) const;
   // Instants at which the front is at R and at which the liquid is gone, as things stand, s.
-  // Without a curve the compiler contracts the last product of Eq. 7 with what follows; one path for both would not.
-  double time_at(double R) const {
-    if (droplet_.curve) return time_of(droplet_.curve->time_at(R));
-    return time_of(droplet_.time_at(R));
-  }
+  double time_at(double R) const;
   double end() const { return time_of(droplet_.lifetime); }
 
   // Time for which a droplet without a crust would have dried so far, s, and when it will have dried for `reduced`.
