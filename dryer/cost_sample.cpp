@@ -107,6 +107,7 @@ double measured_seconds(const DryingScene& scene, SampleState state) {
   const double packed = std::min(model.droplet.initial_radius, std::cbrt(2 * solids));
   model.droplet.lifetime = R / (2 * model.droplet.front_speed(packed));
   model.droplet.initial_radius = R;
+  model.droplet.curve = nullptr;
   const auto integrator = make_integrator(scene, model, 1, stage.depth, sample);
 
   std::vector<double> times;

@@ -16,6 +16,13 @@ DryCrust dry_crust(const Particles& particles, const Frame& frame, double R) {
   return covered > 0 ? DryCrust{std::min(covered, 1.0), reach / covered} : DryCrust{};
 }
 
+double Front::radius(double time) const { return droplet_.radius(reduced(time)); }
+
+double Front::time_at(double R) const {
+  if (droplet_.curve) return time_of(droplet_.curve->time_at(R));
+  return time_of(droplet_.time_at(R));
+}
+
 void Front::fields(SavedFields& f) {
   f("front_time", past_.time);
   f("front_reduced_time", past_.reduced);

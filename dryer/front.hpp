@@ -33,10 +33,15 @@ class Front {
  public:
   Front(const Droplet& droplet, double relative_diffusivity) : droplet_(droplet), relative_(relative_diffusivity) {}
 
-  double radius(double time) const { return droplet_.radius(reduced(time)); }
+  // Out of line, both: inlined where the droplet may or may not follow a curve, the compiler rounds Eq. 7 otherwise.
+  double radius(double time) const;
   // Instants at which the front is at R and at which the liquid is gone, as things stand, s.
-  double time_at(double R) const { return past_.time + (droplet_.time_at(R) - past_.reduced) / past_.rate; }
-  double end() const { return past_.time + (droplet_.lifetime - past_.reduced) / past_.rate; }
+  double time_at(double R) const;
+  double end() const { return time_of(droplet_.lifetime); }
+
+  // Time for which a droplet without a crust would have dried so far, s, and when it will have dried for `reduced`.
+  double reduced(double time) const { return past_.reduced + past_.rate * (time - past_.time); }
+  double time_of(double reduced) const { return past_.time + (reduced - past_.reduced) / past_.rate; }
 
   bool may_slow_down() const { return relative_ < 1; }
   void follow(const Agglomerate& state);
@@ -48,7 +53,6 @@ class Front {
   struct Past {
     double time = 0, reduced = 0, rate = 1;  // s, s, -
   };
-  double reduced(double time) const { return past_.reduced + past_.rate * (time - past_.time); }
 
   const Droplet& droplet_;
   double relative_;

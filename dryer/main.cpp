@@ -13,6 +13,7 @@
 #include "common/io/program.hpp"
 #include "common/io/provenance.hpp"
 #include "common/numerics/noise.hpp"
+#include "dryer/conditions_command.hpp"
 #include "dryer/continuum_command.hpp"
 #include "dryer/drying.hpp"
 #include "dryer/expected_cost.hpp"
@@ -40,12 +41,21 @@ ProgramDescription description() {
             "the scene of a smaller droplet that stands for one of too many particles"},
            {"dryer hollow.toml --check", "say what the scene means, run nothing"},
            {"dryer continuum --peclet 1 --theta 0.2,0.4 -o continuum.csv",
-            "concentration of point particles; dryer continuum --help explains"}},
+            "concentration of point particles; dryer continuum --help explains"},
+           {"dryer conditions spray.toml",
+            "what a gas makes of a droplet, before anything is dried; dryer conditions --help explains"}},
           version_text("dryer"),
           drying_parameters(),
           true,
           false,
           true};
+}
+
+// What is saved belongs to the history of the gas as it was.
+CheckpointOwner checkpoint_owner(const Scene& text, const Provenance& provenance) {
+  CheckpointOwner owner{"dryer", provenance.version, text.resolved()};
+  for (const ReadFile& file : gas_files(text)) owner.scene += "\n# and " + sha256_of_file(file.name);
+  return owner;
 }
 
 int dry(int argc, const char* const* argv) {
@@ -56,7 +66,8 @@ int dry(int argc, const char* const* argv) {
   }
   const Machine machine = this_machine();
   omp_set_num_threads(line.threads > 0 ? line.threads : default_threads(omp_get_max_threads(), machine));
-  const Scene text = Scene::read(line.scene, drying_parameters(), line.overrides);
+  Scene text = Scene::read(line.scene, drying_parameters(), line.overrides);
+  inherit_from_gas(text);
   if (!line.fit_to.empty()) {
     deliver(stand_in(text, fit_to(line.fit_to), machine));
     return 0;
@@ -78,9 +89,9 @@ int dry(int argc, const char* const* argv) {
     return 0;
   }
 
-  const OwnedOutputs owned(line.written, {});
+  const OwnedOutputs owned(line.written, gas_files(text));
   if (!line.overwrite) require_no_other_result(line.output, provenance, text.resolved());
-  const OutputCheckpoint checkpoint(line.output, {"dryer", provenance.version, text.resolved()});
+  const OutputCheckpoint checkpoint(line.output, checkpoint_owner(text, provenance));
   if (line.restart) checkpoint.require();
   if (checkpoint.found()) progress.say("resuming from " + checkpoint.path());
   if (const std::string left = checkpoint.leftovers(); !left.empty()) progress.say(left);
@@ -104,6 +115,10 @@ int main(int argc, char** argv) {
   wait_without_spinning(argv);
   // Arrays of many particles go back to the system when they are freed; by default glibc keeps what is allocated again.
   mallopt(M_MMAP_THRESHOLD, 1 << 17);
-  const bool continuum = argc > 1 && std::string_view(argv[1]) == "continuum";
-  return run_program("dryer", [&] { return continuum ? continuum_command(argc - 1, argv + 1) : dry(argc, argv); });
+  const std::string_view verb = argc > 1 ? argv[1] : "";
+  return run_program("dryer", [&] {
+    return verb == "continuum"    ? continuum_command(argc - 1, argv + 1)
+           : verb == "conditions" ? conditions_command(argc - 1, argv + 1)
+                                  : dry(argc, argv);
+  });
 }

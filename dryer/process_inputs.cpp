@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include "dryer/drag.hpp"
 #include "dryer/particle_radii.hpp"
@@ -16,7 +17,8 @@ namespace crumble::dryer {
 namespace {
 
 // The one of several keys that is set; none or two of them is an error.
-std::string only_one_of(const Scene& scene, const std::vector<std::string>& keys, const std::string& what) {
+std::string only_one_of(const Scene& scene, const std::vector<std::string>& keys, const std::string& what,
+                        const std::string& or_else = "") {
   std::string found, all;
   for (const std::string& key : keys) {
     all += (all.empty() ? "" : ", ") + key;
@@ -26,7 +28,8 @@ std::string only_one_of(const Scene& scene, const std::vector<std::string>& keys
           key, fmt::format("{} is already given by {} ({}); remove one of the two", what, found, scene.where(found)));
     found = key;
   }
-  if (found.empty()) throw InputError(fmt::format("{}: {} is missing; give one of {}", scene.file(), what, all));
+  if (found.empty())
+    throw InputError(fmt::format("{}: {} is missing; give one of {}{}", scene.file(), what, all, or_else));
   return found;
 }
 
@@ -63,9 +66,10 @@ void refuse_beyond_memory(const Scene& scene, const std::string& key, double num
                   std::max(number * machine.memory / memory_of(number), 1.0)));
 }
 
+constexpr const char* numbers[]{"particle.number", "particle.solids_fraction", "particle.weight_fraction"};
+
 std::string number_key(const Scene& scene) {
-  return only_one_of(scene, {"particle.number", "particle.solids_fraction", "particle.weight_fraction"},
-                     "the number of particles");
+  return only_one_of(scene, {numbers, numbers + 3}, "the number of particles");
 }
 
 // Of the volume of the droplet. From a share w of its weight: w/rho_p over w/rho_p + (1 - w)/rho.
@@ -127,10 +131,59 @@ double liquid_property(const Scene& scene, const std::string& key, double (*wate
   return water(temperature);
 }
 
+constexpr const char* speeds[]{"droplet.lifetime", "droplet.evaporation_constant", "droplet.front_speed",
+                               "droplet.peclet"};
+
+// What [gas] says may not be said again.
+void refuse_beside_gas(const Scene& scene) {
+  const std::string gas = gas_key(scene);
+  const std::string where = scene.is_set(gas) ? fmt::format("{} ({})", gas, scene.where(gas)) : "[gas]";
+  for (const char* key : speeds)
+    if (scene.is_set(key))
+      throw scene.error(key, fmt::format("the speed of drying is already given by {}; remove one of the two", where));
+  if (scene.origin("fluid.temperature") != Scene::Origin::by_default)
+    throw scene.error("fluid.temperature",
+                      fmt::format("the temperature of the droplet follows from {}; remove one of the two, or give "
+                                  "droplet.initial_temperature",
+                                  where));
+}
+
+void refuse_without_gas(const Scene& scene) {
+  for (const char* key : {"droplet.initial_temperature", "stands_for.droplet_radius"})
+    if (scene.is_set(key))
+      throw scene.error(key, "has a meaning only with [gas]; give gas.temperature and a humidity, or remove it");
+}
+
+// Unless the scene gives a number, water's (inherit_from_gas()).
+double liquid_property_at(const Scene& scene, const std::string& key, double (*water)(double), double temperature) {
+  if (!scene.word(key) && scene.origin(key) != Scene::Origin::by_default) return scene.real(key);
+  try {
+    return water(temperature);
+  } catch (const std::domain_error& wrong) {
+    throw scene.error(gas_key(scene), fmt::format("makes the droplet {:.1f} K; {}; give a number for {}", temperature,
+                                                  wrong.what(), key));
+  }
+}
+
+void add_gas(const Scene& scene, ProcessInputs& p) {
+  refuse_beside_gas(scene);
+  p.gas = std::make_shared<const GasSide>(gas_side(scene));
+  const bool diffuses = scene.flag("particle.brownian_motion");
+  p.liquid = liquid_course(*p.gas->curve, [&](LiquidPiece& piece) {
+    piece.viscosity = liquid_property_at(scene, "fluid.viscosity", water_viscosity, piece.temperature);
+    piece.surface_tension =
+        liquid_property_at(scene, "fluid.surface_tension", water_surface_tension, piece.temperature);
+    piece.thermal_energy = diffuses ? boltzmann_constant * piece.temperature : 0;
+  });
+  p.lifetime = p.gas->curve->lifetime();
+  const LiquidPiece& middle = piece_at(p.liquid, 0.5 * p.lifetime);
+  p.viscosity = middle.viscosity;
+  p.surface_tension = middle.surface_tension;
+  p.thermal_energy = middle.thermal_energy;
+}
+
 double lifetime(const Scene& scene, const ProcessInputs& given) {
-  const std::string key =
-      only_one_of(scene, {"droplet.lifetime", "droplet.evaporation_constant", "droplet.front_speed", "droplet.peclet"},
-                  "the speed of drying");
+  const std::string key = only_one_of(scene, {speeds, speeds + 4}, "the speed of drying", ", or [gas]");
   const double R0 = scene.real("droplet.radius"), value = scene.real(key);
   if (key == "droplet.lifetime") return value;
   if (key == "droplet.evaporation_constant") return R0 * R0 / value;
@@ -151,6 +204,10 @@ double volume_fraction(double weight_fraction, double particle_density, double l
   return solids / (solids + liquid);
 }
 
+bool says_number(const Scene& scene) {
+  return std::any_of(numbers, numbers + 3, [&](const char* key) { return scene.is_set(key); });
+}
+
 double particle_number(const Scene& scene) {
   const std::string key = number_key(scene);
   if (key == "particle.number") return static_cast<double>(scene.integer(key));
@@ -161,12 +218,23 @@ double particle_number(const Scene& scene) {
 double memory_of(double particles) { return 3e7 + 1200 * particles; }
 
 ProcessInputs process_inputs(const Scene& scene, const Machine& machine) {
+  std::vector<double> radius = particle_radii(scene, machine);
+  ProcessInputs p = inputs_without_particles(scene);
+  p.radius = std::move(radius);
+  return p;
+}
+
+ProcessInputs inputs_without_particles(const Scene& scene) {
   ProcessInputs p;
-  p.radius = particle_radii(scene, machine);
+  p.contact_angle = scene.real("fluid.contact_angle") * std::numbers::pi / 180;
+  if (has_gas(scene)) {
+    add_gas(scene, p);
+    return p;
+  }
+  refuse_without_gas(scene);
   p.viscosity = liquid_property(scene, "fluid.viscosity", water_viscosity, water_viscosity_from, water_viscosity_to);
   p.surface_tension = liquid_property(scene, "fluid.surface_tension", water_surface_tension, water_surface_tension_from,
                                       water_surface_tension_to);
-  p.contact_angle = scene.real("fluid.contact_angle") * std::numbers::pi / 180;
   if (scene.flag("particle.brownian_motion")) p.thermal_energy = boltzmann_constant * scene.real("fluid.temperature");
   p.lifetime = lifetime(scene, p);
   return p;

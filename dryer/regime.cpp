@@ -12,22 +12,27 @@
 
 namespace crumble::dryer {
 
-DryingRegime drying_regime(const DryingScene& s) {
-  const Droplet& droplet = s.model.droplet;
-  const double a = s.nominal_radius, R0 = droplet.initial_radius;
-  double solids = 0;  // sum of a^3
-  for (const double radius : s.radius) solids += radius * radius * radius;
+DryingRegime drying_regime(const DryingModel& model, double a, double solids_fraction) {
+  const Droplet& droplet = model.droplet;
+  const double R0 = droplet.initial_radius;
   DryingRegime r;
-  r.solids_fraction = solids / (R0 * R0 * R0);
-  r.diffusivity = s.model.thermal_energy / drag_coefficient(s.model.viscosity, a);
+  r.solids_fraction = solids_fraction;
+  r.diffusivity = model.thermal_energy / drag_coefficient(model.viscosity, a);
   r.evaporation_constant = R0 * R0 / droplet.lifetime;
   r.peclet = r.diffusivity > 0 ? droplet.peclet(r.diffusivity) : std::numeric_limits<double>::infinity();
   r.front_speed = droplet.front_speed(R0);
-  r.packed_front_speed = droplet.front_speed(std::min(R0, std::cbrt(2 * solids)));
-  r.capillary_speed = droplet.surface_tension / (3 * s.model.viscosity);
-  r.force_ratio = capillary_force(droplet.surface_tension, a, 0) /
-                  BondLaw(s.model.contact, s.model.material, a, a).pull_off_force();
+  r.packed_front_speed = droplet.front_speed(std::min(R0, R0 * std::cbrt(2 * solids_fraction)));
+  r.capillary_speed = droplet.surface_tension / (3 * model.viscosity);
+  r.force_ratio =
+      capillary_force(droplet.surface_tension, a, 0) / BondLaw(model.contact, model.material, a, a).pull_off_force();
   return r;
+}
+
+DryingRegime drying_regime(const DryingScene& s) {
+  const double R0 = s.model.droplet.initial_radius;
+  double solids = 0;  // sum of a^3
+  for (const double radius : s.radius) solids += radius * radius * radius;
+  return drying_regime(s.model, s.nominal_radius, solids / (R0 * R0 * R0));
 }
 
 // Beyond Pe = 100 the steady profile exp(Pe rho^2/4) of diffusion against the front falls by e within 2 % of the
@@ -65,6 +70,7 @@ std::vector<std::string> describe(const DryingScene& s) {
   const double m = 4.0 / 3.0 * std::numbers::pi * a * a * a * s.model.material.density;
   const BondLaw law(s.model.contact, s.model.material, a, a);
   std::vector<std::string> lines;
+  if (s.gas) lines = describe(*s.gas);
   lines.push_back(fmt::format("N = {} particles of {:g} nm in a droplet of {:g} nm, phi = {:.2f} % solids",
                               s.radius.size(), a * 1e9, R0 * 1e9, 100 * r.solids_fraction));
   if (s.smallest_radius() < s.largest_radius())
@@ -76,6 +82,12 @@ std::vector<std::string> describe(const DryingScene& s) {
       s.contact_angle > 0 ? fmt::format(", {:.4g} of it pulls at the contact angle", wetting_factor(s.contact_angle))
                           : "",
       r.diffusivity));
+  if (s.liquid.size() > 1)
+    lines.push_back(fmt::format(
+        "that is at half of the lifetime; it comes from {:.2f} K, mu = {:.4g} Pa s, and ends at {:.2f} K, mu "
+        "= {:.4g} Pa s",
+        s.liquid.front().temperature, s.liquid.front().viscosity, s.liquid.back().temperature,
+        s.liquid.back().viscosity));
   lines.push_back(fmt::format("drying: tau = {:.4g} s, k = {:.4g} m2/s, Pe = {}", s.model.droplet.lifetime,
                               r.evaporation_constant,
                               std::isinf(r.peclet) ? "infinity" : fmt::format("{:.4g}", r.peclet)));
@@ -100,6 +112,24 @@ std::vector<std::string> describe(const DryingScene& s) {
   return lines;
 }
 
+void report_gas(Report& report, const GasSide& s) {
+  const Gas& gas = s.gas.first();
+  report.result("gas.temperature_k", gas.temperature);
+  report.result("gas.vapour_mass_fraction", gas.vapour_mass_fraction);
+  report.result("gas.relative_humidity", s.humidity);
+  report.result("gas.pressure_pa", gas.pressure);
+  report.result("gas.wet_bulb_k", s.wet_bulb);
+  report.result("gas.last_wet_bulb_k", s.last_wet_bulb);
+  report.result("gas.evaporation_constant_m2_per_s", s.evaporation_constant);
+  report.result("gas.droplet_radius_m", s.droplet.radius);
+  report.result("gas.largest_radius_m", s.largest_radius);
+  report.result("gas.initial_temperature_k", s.droplet.temperature);
+  report.result("gas.heat_up_time_s", s.heat_up_time);
+  report.result("gas.lifetime_s", s.course.curve.lifetime());
+  report.result("gas.vapour_knudsen_number", s.vapour_knudsen);
+  report.result("gas.kelvin_excess", s.kelvin);
+}
+
 void report_regime(Report& report, const DryingScene& s) {
   const DryingRegime r = drying_regime(s);
   report.result("inputs.number", static_cast<std::int64_t>(s.radius.size()));
@@ -118,6 +148,7 @@ void report_regime(Report& report, const DryingScene& s) {
   report.result("inputs.force_ratio", r.force_ratio);
   report.result("inputs.packed_front_over_capillary_speed", r.packed_front_speed / r.capillary_speed);
   report.result("inputs.regime", r.words());
+  if (s.gas) report_gas(report, *s.gas);
   report.result("inputs.integrator", std::string(integrator_summary(s)));
 }
 

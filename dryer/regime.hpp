@@ -30,9 +30,14 @@ struct DryingRegime {
 };
 
 DryingRegime drying_regime(const DryingScene& scene);
+// Of particles of radius a, m, that take up a share of the droplet at the start.
+DryingRegime drying_regime(const DryingModel& model, double a, double solids_fraction);
 
 // For people, a line each.
 std::vector<std::string> describe(const DryingScene& scene);
+
+// For the report: what follows from the gas, of the real droplet, in the group `gas`.
+void report_gas(Report& report, const GasSide& side);
 
 // For the report: the derived numbers in the group `inputs`, the regime in words.
 void report_regime(Report& report, const DryingScene& scene);

@@ -10,9 +10,12 @@ namespace crumble::dryer {
 
 void append_frame(FrameLog& frames, const DryingRun& run) {
   const auto surface = run.surface();
-  frames.append(run.state().state, {{"droplet_radius", run.droplet_radius()},
-                                    {"wetted_count", static_cast<double>(surface.wetted)},
-                                    {"capillary_force", surface.largest_force}});
+  const Frame& now = run.state().state;
+  frames.append(now, {{"droplet_radius", run.droplet_radius()},
+                      {"wetted_count", static_cast<double>(surface.wetted)},
+                      {"capillary_force", surface.largest_force}});
+  if (const auto temperature = run.temperature())
+    frames.sample(now.step, now.time, {{"droplet_temperature", "K", *temperature}});
 }
 
 void write_morphology(AgglomerateWriter& writer, const Morphology& m) {

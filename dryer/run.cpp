@@ -47,7 +47,8 @@ DryingRun::DryingRun(const DryingScene& scene, double coarsening, Begin begin)
       coarsening_(coarsening),
       stages_(softening_stages(scene)),
       stage_(begin.stage),
-      model_(softened_model(scene, stages_.at(stage_).softening)),
+      piece_(begin.piece),
+      model_(model_now()),
       state_(std::move(begin.state)),
       integrator_(make_integrator(scene, model_, coarsening, stages_[stage_].depth, state_)) {}
 
@@ -58,8 +59,9 @@ DryingRun::DryingRun(const DryingScene& scene, double coarsening)
 
 namespace {
 
-void begin_fields(SavedFields& f, std::size_t& stage, Frame& frame) {
+void begin_fields(SavedFields& f, const DryingScene& scene, std::size_t& stage, std::size_t& piece, Frame& frame) {
   f("softening_stage", stage);
+  if (!scene.liquid.empty()) f("liquid_piece", piece);
   saved_frame(f.in("state"), frame);
 }
 
@@ -68,7 +70,7 @@ void begin_fields(SavedFields& f, std::size_t& stage, Frame& frame) {
 DryingRun::Begin DryingRun::saved_begin(const DryingScene& scene, SavedFields& saved) {
   Begin begin;
   begin.state.particles = suspended_particles(scene.radius, scene.model.material.density);
-  begin_fields(saved, begin.stage, begin.state.state);
+  begin_fields(saved, scene, begin.stage, begin.piece, begin.state.state);
   return begin;
 }
 
@@ -80,7 +82,7 @@ DryingRun::DryingRun(const DryingScene& scene, double coarsening, SavedFields sa
 }
 
 void DryingRun::save(SavedFields f) {
-  begin_fields(f, stage_, state_.state);
+  begin_fields(f, scene_, stage_, piece_, state_.state);
   SavedFields inside = f.in("integrator");
   integrator_->fields(inside);
 }
@@ -96,13 +98,26 @@ double DryingRun::latest_time() const {
   const Front& front = integrator_->front();
   const auto next = static_cast<std::size_t>(frames_passed());
   const bool free = scene_.is(IntegratorKind::implicit) || scene_.is(IntegratorKind::stabilised);
-  if (!free || next == scene_.frames.size()) return front.end();
-  return std::min(front.end(), front.time_at((1 - scene_.frames[next]) * scene_.model.droplet.initial_radius));
+  double latest = front.end();
+  if (!free) return latest;
+  if (next < scene_.frames.size())
+    latest = std::min(latest, front.time_at((1 - scene_.frames[next]) * scene_.model.droplet.initial_radius));
+  if (piece_ + 1 < scene_.liquid.size()) latest = std::min(latest, front.time_of(scene_.liquid[piece_].until));
+  return latest;
 }
 
 void DryingRun::step() {
   integrator_->step(latest_time());
-  if (stage_ + 1 < stages_.size() && outgrows_stage()) enter_next_stage();
+  const std::size_t stage = stage_ + (stage_ + 1 < stages_.size() && outgrows_stage() ? 1 : 0);
+  std::size_t piece = piece_;
+  if (!scene_.liquid.empty() && !finished())
+    piece += pieces_passed(scene_.liquid, piece_, integrator_->front().reduced(state_.state.time));
+  if (stage != stage_ || piece != piece_) enter(stage, piece);
+}
+
+std::optional<double> DryingRun::temperature() const {
+  if (!scene_.gas) return std::nullopt;
+  return scene_.model.droplet.curve->temperature(integrator_->front().reduced(state_.state.time));
 }
 
 bool DryingRun::outgrows_stage() const {
@@ -115,11 +130,18 @@ bool DryingRun::outgrows_stage() const {
   return false;
 }
 
-void DryingRun::enter_next_stage() {
+// The scene's, softened, with what the liquid is now. How soft contacts are follows from the scene's own kT.
+DryingModel DryingRun::model_now() const {
+  DryingModel model = softened_model(scene_, stages_.at(stage_).softening);
+  if (!scene_.liquid.empty()) take(scene_.liquid.at(piece_), model);
+  return model;
+}
+
+void DryingRun::enter(std::size_t stage, std::size_t piece) {
   SavedState kept = crumble::save(*integrator_);
   integrator_.reset();
-  ++stage_;
-  model_ = softened_model(scene_, stages_[stage_].softening);
+  stage_ = stage, piece_ = piece;
+  model_ = model_now();
   integrator_ = make_integrator(scene_, model_, coarsening_, stages_[stage_].depth, state_);
   load(*integrator_, std::move(kept));
 }
@@ -131,8 +153,7 @@ DryingRun::Surface DryingRun::surface() const {
     const double a = state_.particles.radius[p], r = state_.state.position[p].norm();
     if (!surface_cuts(a, r, R)) continue;
     ++surface.wetted;
-    surface.largest_force =
-        std::max(surface.largest_force, capillary_force(scene_.model.droplet.surface_tension, a, r - R));
+    surface.largest_force = std::max(surface.largest_force, capillary_force(model_.droplet.surface_tension, a, r - R));
   }
   return surface;
 }

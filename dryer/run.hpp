@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "common/agglomerate/morphology.hpp"
 #include "dryer/integrator.hpp"
@@ -33,6 +34,7 @@ class DryingRun {
   bool finished() const { return state_.state.time >= integrator_->front().end(); }
 
   double droplet_radius() const { return integrator_->front().radius(state_.state.time); }
+  std::optional<double> temperature() const;  // of the liquid as [gas] has it, K
   double fraction() const { return 1 - droplet_radius() / scene_.model.droplet.initial_radius; }
   // How many of the scene's frames the front has come to.
   int frames_passed() const;
@@ -52,18 +54,19 @@ class DryingRun {
  private:
   struct Begin {
     Agglomerate state;
-    std::size_t stage = 0;
+    std::size_t stage = 0, piece = 0;
   };
   static Begin saved_begin(const DryingScene& scene, SavedFields& saved);
   DryingRun(const DryingScene& scene, double coarsening, Begin begin);
   double latest_time() const;
   bool outgrows_stage() const;
-  void enter_next_stage();
+  void enter(std::size_t stage, std::size_t piece);
+  DryingModel model_now() const;
 
   const DryingScene& scene_;
   double coarsening_;
   std::vector<SofteningStage> stages_;
-  std::size_t stage_;
+  std::size_t stage_, piece_;  // piece: of scene_.liquid
   DryingModel model_;
   Agglomerate state_;
   std::unique_ptr<Integrator> integrator_;

@@ -48,6 +48,24 @@ IntegratorKind integrator_kind(const Scene& scene, const DryingModel& model) {
 
 }  // namespace
 
+DryingModel drying_model(const Scene& scene, const ProcessInputs& process) {
+  DryingModel model;
+  model.material = material_in(scene);
+  model.viscosity = process.viscosity;
+  model.thermal_energy = process.thermal_energy;
+  model.droplet = {scene.real("droplet.radius"), process.lifetime,
+                   process.surface_tension * wetting_factor(process.contact_angle),
+                   process.gas ? process.gas->curve : nullptr};
+  ContactChoice& c = model.contact;
+  c = contact_in(scene);
+  c.normal = scene.choice("contact.law") == "jkr" ? NormalLaw::jkr : NormalLaw::cundall_strack;
+  c.stiffness_factor = scene.real("contact.stiffness_factor");
+  c.friction = scene.real("contact.friction");
+  model.crust_diffusivity = scene.real("crust.relative_diffusivity");
+  model.dry = {scene.flag("dry.everything_acts"), scene.real("dry.drag_factor")};
+  return model;
+}
+
 DryingScene drying_scene(const Scene& scene, const Machine& machine) {
   require_radius(scene, "particle.radius");
   require_radius(scene, "particle.second_radius");
@@ -56,29 +74,24 @@ DryingScene drying_scene(const Scene& scene, const Machine& machine) {
   DryingScene s;
   s.nominal_radius = scene.real("particle.radius");
   s.radius = process.radius;
-  s.model.material = material_in(scene);
-  s.model.viscosity = process.viscosity;
-  s.model.thermal_energy = process.thermal_energy;
-  s.model.droplet = {scene.real("droplet.radius"), process.lifetime,
-                     process.surface_tension * wetting_factor(process.contact_angle)};
+  s.model = drying_model(scene, process);
   s.surface_tension = process.surface_tension;
   s.contact_angle = process.contact_angle;
+  if (process.gas) {
+    s.gas = process.gas;
+    s.liquid = process.liquid;
+    for (LiquidPiece& piece : s.liquid) piece.surface_tension *= wetting_factor(s.contact_angle);
+  }
   ContactChoice& c = s.model.contact;
-  c = contact_in(scene);
-  c.normal = scene.choice("contact.law") == "jkr" ? NormalLaw::jkr : NormalLaw::cundall_strack;
   if (const auto wrong = outside_contact_theory(s.model.material, s.smallest_radius());
       c.normal == NormalLaw::jkr && !wrong.empty())
     throw scene.error("material.youngs_modulus", wrong);
-  c.stiffness_factor = scene.real("contact.stiffness_factor");
-  c.friction = scene.real("contact.friction");
   s.seed = static_cast<std::uint64_t>(scene.integer("run.seed"));
   s.integrator = integrator_kind(scene, s.model);
   s.implicit = {scene.real("integrator.largest_displacement"), scene.real("integrator.contact_precision")};
   s.stabilised.largest_displacement = scene.real("integrator.largest_displacement");
   s.brownian.contact_step = scene.real("integrator.contact_step");
   s.softening = scene.real("integrator.softening");
-  s.model.crust_diffusivity = scene.real("crust.relative_diffusivity");
-  s.model.dry = {scene.flag("dry.everything_acts"), scene.real("dry.drag_factor")};
   s.frames = frames(scene);
   s.checkpoint_interval = scene.real("output.checkpoint_interval");
   if (scene.is_set("stands_for.number")) s.stands_for = scene.real("stands_for.number");

@@ -1,12 +1,15 @@
 // What a drying scene may say, and what it means in numbers.
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "common/io/machine.hpp"
 #include "common/io/parameters.hpp"
 #include "dryer/brownian.hpp"
+#include "dryer/gas/gas_side.hpp"
 #include "dryer/implicit.hpp"
+#include "dryer/liquid_course.hpp"
 #include "dryer/model.hpp"
 #include "dryer/stabilised.hpp"
 
@@ -22,6 +25,8 @@ struct DryingScene {
   std::vector<double> radius;  // one a particle, descending, m
   double surface_tension = 0;  // sigma of the liquid, N/m; the model's has the factor of the contact angle
   double contact_angle = 0;    // theta, rad
+  std::shared_ptr<const GasSide> gas;  // of a scene with [gas]
+  std::vector<LiquidPiece> liquid;     // in time; empty without [gas]
   DryingModel model;
   std::uint64_t seed = 1;
   IntegratorKind integrator = IntegratorKind::stabilised;
@@ -43,5 +48,9 @@ struct DryingScene {
 // Throws InputError naming file, line and keys where values contradict each other.
 // Also if the droplet needs more memory than the machine has.
 DryingScene drying_scene(const Scene& scene, const Machine& machine = this_machine());
+
+// The physics of a scene alone, whatever its particles are.
+struct ProcessInputs;
+DryingModel drying_model(const Scene& scene, const ProcessInputs& process);
 
 }  // namespace crumble::dryer

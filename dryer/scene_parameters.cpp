@@ -1,5 +1,6 @@
 // The keys of a drying scene.
 #include "common/io/shared_parameters.hpp"
+#include "dryer/gas/gas_side.hpp"
 #include "dryer/scene.hpp"
 
 namespace crumble::dryer {
@@ -108,7 +109,9 @@ const ParameterTable& drying_parameters() {
       material(),
       fluid(),
       {"droplet",
-       "The droplet: R(t)^2 = R0^2 - k t (Eq. 7). How fast it dries is said by exactly one of the last four keys.",
+       "The droplet: R(t)^2 = R0^2 - k t (Eq. 7). How fast it dries is said by exactly one of lifetime, "
+       "evaporation_constant, "
+       "front_speed and peclet, or follows from [gas].",
        {P::real("radius", "m", "Radius R0 at the start").or_by("diameter", 0.5).not_called("droplet.size").above(0),
         P::real("lifetime", "s", "Time tau = R0^2/k at which the liquid is gone")
             .not_called("droplet.drying_time")
@@ -120,7 +123,9 @@ const ParameterTable& drying_parameters() {
             .above(0)
             .optional(),
         P::real("front_speed", "m s-1", "Speed -dR/dt = k/(2 R0) of the surface at the start").above(0).optional(),
-        P::real("peclet", "", "Peclet number Pe = R0^2/(D tau) = k/D (Eq. 22), D of Eq. 23").above(0).optional()}},
+        P::real("peclet", "", "Peclet number Pe = R0^2/(D tau) = k/D (Eq. 22), D of Eq. 23").above(0).optional(),
+        initial_temperature_parameter()}},
+      gas_section(),
       contact(),
       {"dry",
        "A particle that the liquid has left behind (r > R + a). No capillary force acts on it; its bonds stay.",
@@ -172,7 +177,7 @@ const ParameterTable& drying_parameters() {
        "The real droplet for which this smaller one stands; `dryer SCENE.toml --fit-to` writes it. The report then "
        "says "
        "what is known of the real granule.",
-       {P::real("number", "", "Particles in it").at_least(1).optional()}},
+       {P::real("number", "", "Particles in it").at_least(1).optional(), real_radius_parameter()}},
       {"error",
        "How the run judges itself.",
        {P::flag("estimate",

@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <map>
 
 #include "common/io/progress.hpp"
@@ -45,7 +46,17 @@ std::string smaller(const Scene& scene, double number) {
     }
     if (!lines.empty()) text += fmt::format("\n[{}]\n{}", section.name, lines);
   }
-  return text + fmt::format("\n[stands_for]\nnumber = {}\n", toml_text(all));
+  text += fmt::format("\n[stands_for]\nnumber = {}\n", toml_text(all));
+  if (has_gas(scene))
+    text += fmt::format("droplet_radius = {}\n",
+                        toml_text(scene.is_set("stands_for.droplet_radius") ? scene.real("stands_for.droplet_radius")
+                                                                            : scene.real("droplet.radius")));
+  return text;
+}
+
+// What it names, a history of the gas, it finds where the scene does.
+std::string name_beside(const Scene& scene) {
+  return (std::filesystem::path(scene.file()).parent_path() / "the smaller scene").string();
 }
 
 std::string what_is_lost(const DryingRegime& r, double s) {
@@ -84,8 +95,8 @@ FitTo fit_to(const std::string& text) {
 
 std::string stand_in(const Scene& scene, double number) {
   const double all = particle_number(scene), s = std::cbrt(number / all);
-  const std::string text = smaller(scene, number);
-  const DryingScene small = drying_scene(Scene::parse(text, "the smaller scene", drying_parameters()));
+  const std::string text = smaller(scene, number), name = name_beside(scene);
+  const DryingScene small = drying_scene(Scene::parse(text, name, drying_parameters()));
   const DryingRegime r = drying_regime(small);
   std::string head =
       fmt::format("# {} particles that stand for the {:.3g} of {}.\n", small.radius.size(), all, scene.file());
@@ -107,7 +118,7 @@ std::string stand_in(const Scene& scene, const FitTo& wanted, const Machine& mac
     return stand_in(scene, *wanted.number);
   }
   const auto seconds = [&](double number) {
-    const Scene text = Scene::parse(smaller(scene, number), "the smaller scene", drying_parameters());
+    const Scene text = Scene::parse(smaller(scene, number), name_beside(scene), drying_parameters());
     const DryingScene small = drying_scene(text, machine);
     return expected_cost(small).most_seconds * (small.estimate_error ? 1.75 : 1);
   };

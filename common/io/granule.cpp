@@ -13,7 +13,8 @@ std::string source_of(const Scene& scene, const std::string& key) {
     case Scene::Origin::given:
       return "scene";
     case Scene::Origin::inherited:
-      return "file";
+      // A section of the same scene, "[gas]", or the file of the stage before.
+      return scene.where(key).starts_with('[') ? scene.where(key) : "file";
     default:
       return "default";
   }
