@@ -1,5 +1,6 @@
 // The keys of a drying scene.
 #include "common/io/shared_parameters.hpp"
+#include "common/io/surface_forces_parameters.hpp"
 #include "dryer/scene.hpp"
 
 namespace crumble::dryer {
@@ -122,6 +123,7 @@ const ParameterTable& drying_parameters() {
         P::real("front_speed", "m s-1", "Speed -dR/dt = k/(2 R0) of the surface at the start").above(0).optional(),
         P::real("peclet", "", "Peclet number Pe = R0^2/(D tau) = k/D (Eq. 22), D of Eq. 23").above(0).optional()}},
       contact(),
+      surface_forces_section(),
       {"dry",
        "A particle that the liquid has left behind (r > R + a). No capillary force acts on it; its bonds stay.",
        {P::flag("everything_acts", "Thermal noise goes on as in the liquid").by_default(false),

@@ -29,10 +29,9 @@ struct PairForces {
                : attraction.energy(gap) + repulsion.energy(gap) - attraction.energy(range) - repulsion.energy(range);
   }
   double bonded_energy(double gap) const { return gap > range ? 0 : repulsion.energy(gap) - repulsion.energy(range); }
-  // Largest tension that the contact bears in this liquid, at h_po: F_po + dV_R/dh, N.
+  // Largest tension that the pair bears in this liquid, where the attraction begins to fall: F_po + dV_R/dh at h_j, N.
   double pull_off_force() const {
-    const double h_po = attraction.lost_gap();
-    return attraction.contact().pull_off_force() + repulsion.tension(h_po);
+    return attraction.contact().pull_off_force() + repulsion.tension(attraction.joined_gap());
   }
 };
 
