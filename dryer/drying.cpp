@@ -88,8 +88,6 @@ void Drying::write(const Morphology& result) {
   write_errors(writer, result, companion());
   Properties properties = properties_of(job_.text);
   properties["fluid.viscosity"] = job_.scene.model.viscosity;  // where the scene says "water", water's
-  properties["material.surface_energy"] =
-      job_.scene.model.material.surface_energy;  // perhaps that of a Hamaker constant
   write_properties(writer, properties);
   writer.finish("dry");
 }
