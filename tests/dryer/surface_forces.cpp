@@ -326,14 +326,13 @@ TEST(RapidCoagulation, by_first_passage_has_the_half_time_of_its_attraction) {
   EXPECT_LT(enhanced, 1);
 }
 
-// A pair of weak attraction in a closed sphere that does not shrink: how often it is nearer than h_j, by the Boltzmann
+// A pair of weak attraction, without charge, in a closed sphere that does not shrink: how often it is nearer than h_j, by the Boltzmann
 // distribution of capillary and surface energy together. Of centres at r and q from the middle the distance s has the
 // density s/(2 r q) from |r - q| to r + q.
 TEST(SurfaceForces, a_pair_in_a_closed_sphere_has_the_Boltzmann_distribution) {
   const double R = 22e-9;
-  DryingModel model = in_bulk(forces(2.8e-21, 0.015, 100));
-  model.material.surface_energy = surface_energy_of(2.8e-21);
-  model.surface_forces->solubility = 100.0000001;  // so that the sphere is as the bulk
+  DryingModel model = in_bulk(forces(2.2e-21, 0, 100));
+  model.material.surface_energy = surface_energy_of(2.2e-21);
   model.droplet = {R, 1e9, 1.75e-4};
   const std::vector<double> radius{a, a};
   const BondLaws bonds(model.contact, model.material, radius);
