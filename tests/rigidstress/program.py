@@ -94,8 +94,11 @@ class Program(unittest.TestCase):
         self.assertAlmostEqual(charged["elongation"]["critical_stress_worst_pa"] / alone["elongation"]["critical_stress_worst_pa"],
                                ratio, delta=1e-6)
         self.assertIn("the pull-off force in this liquid counts here, and nothing else", run.stderr)
-        from_hamaker = self.stress(doublet, "hydrodynamics.method=fts", *salt[:1], "surface_forces.surface_potential=0",
-                                   "surface_forces.sets_surface_energy=true")
+        twice = self.refused(doublet, *salt, "surface_forces.sets_surface_energy=true")
+        self.assertIn("material.surface_energy", twice.stderr)
+        scene = self.folder / "hamaker.toml"
+        scene.write_text("[surface_forces]\nhamaker = 9.85e-21\nsurface_potential = 0\nsets_surface_energy = true\n")
+        from_hamaker = self.stress(doublet, "hydrodynamics.method=fts", scene=scene)
         with h5py.File(from_hamaker[2]) as file:  # A/(24 pi D0^2)
             self.assertAlmostEqual(file["material/surface_energy"][()], 9.85e-21 / (24 * math.pi * 0.165e-9**2), delta=1e-9)
         refused = self.refused(doublet, *salt[:1], "surface_forces.surface_potential=40", salt[2])
