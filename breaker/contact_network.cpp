@@ -15,12 +15,15 @@ constexpr double skin = 0.3;  // of the smallest radius
 }  // namespace
 
 ContactNetwork::ContactNetwork(const ContactChoice& choice, const Material& material, const std::vector<double>& radius,
-                               Frame& frame)
+                               Frame& frame, const std::optional<SurfaceForces>& surface_forces)
     : radius_(radius), frame_(frame), laws_(choice, material, radius), open_(skin * smallest(radius)) {
   for (Contact& bond : frame.contacts) evaluate_loads(bond, laws_(bond.i, bond.j));
   open_.update(frame.position, radius, frame.contacts);
   make_contacts(0);
   events_.clear();
+  if (!surface_forces) return;
+  surface_pairs_.emplace(*surface_forces, laws_, radius);
+  surface_pairs_->update(frame);
 }
 
 void ContactNetwork::add_loads(double length, VectorXd& loads) const {
@@ -32,6 +35,7 @@ void ContactNetwork::add_loads(double length, VectorXd& loads) const {
     loads.segment<3>(6 * bond.i + 3) += torque_on_i(bond, lever_arm(bond, a_i, a_j)) / length;
     loads.segment<3>(6 * bond.j + 3) += torque_on_j(bond, lever_arm(bond, a_j, a_i)) / length;
   }
+  if (surface_pairs_) surface_pairs_->add_loads(frame_, loads);
 }
 
 void ContactNetwork::tell_limits(const Contact& bond, double stress) {
@@ -65,6 +69,7 @@ bool ContactNetwork::advance(const VectorXd& q, double length, double stress) {
   if (lost) drop_lost(frame_.contacts);
   open_.update(frame_.position, radius_, frame_.contacts);
   const bool made = make_contacts(stress);
+  if (surface_pairs_) surface_pairs_->update(frame_);
   return made || lost;
 }
 

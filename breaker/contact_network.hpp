@@ -4,8 +4,10 @@
 #include <Eigen/Dense>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <vector>
 
+#include "breaker/surface_pairs.hpp"
 #include "common/agglomerate/agglomerate.hpp"
 #include "common/agglomerate/open_pairs.hpp"
 #include "common/contact/bond_laws.hpp"
@@ -26,10 +28,10 @@ struct Event {
 class ContactNetwork {
  public:
   // Pairs that overlap and are not bonded become contacts.
-  ContactNetwork(const ContactChoice& choice, const Material& material, const std::vector<double>& radius,
-                 Frame& frame);
+  ContactNetwork(const ContactChoice& choice, const Material& material, const std::vector<double>& radius, Frame& frame,
+                 const std::optional<SurfaceForces>& surface_forces = std::nullopt);
 
-  // Loads of the contacts on the spheres, (F_i, T_i/length), N.
+  // Loads of contacts and surface forces on the spheres, (F_i, T_i/length), N.
   void add_loads(double length, Eigen::VectorXd& loads) const;
 
   // After the positions of the frame have moved by q = (dx_i, length dtheta_i): the histories follow, contacts beyond
@@ -44,6 +46,8 @@ class ContactNetwork {
   bool ruptures(const Eigen::VectorXd& q) const;
 
   const BondLaws& laws() const { return laws_; }
+  // Forces between near surfaces, or nothing.
+  const SurfacePairs* surface_pairs() const { return surface_pairs_ ? &*surface_pairs_ : nullptr; }
 
   // What has happened since the last call. A contact that reaches a limit is told once for each kind of limit.
   std::vector<Event> take_events();
@@ -55,6 +59,7 @@ class ContactNetwork {
   Frame& frame_;
   BondLaws laws_;
   OpenPairs open_;
+  std::optional<SurfacePairs> surface_pairs_;
   std::map<Pair, std::uint8_t> told_;
   std::vector<Event> events_;
 

@@ -19,9 +19,12 @@ ExplicitEuler::ExplicitEuler(const BreakupModel& model, const Protocol& protocol
     : Integrator(model, protocol, radius, std::move(frame)) {
   renew(frame_.position);
   limit_ = measured_limit();
-  // Without contacts, half of what a free sphere on one of them would be allowed.
-  const double loose =
-      6 * std::numbers::pi * model.viscosity * length_ / Jkr(model.material, length_).tangent_stiffness();
+  // Without contacts, half of what a free sphere on one of them, or on the stiffest gap of surface forces, would be
+  // allowed.
+  double stiffest = Jkr(model.material, length_).tangent_stiffness();
+  if (const SurfacePairs* near = network_.surface_pairs())
+    stiffest = std::max(stiffest, near->laws().largest_stiffness());
+  const double loose = 6 * std::numbers::pi * model.viscosity * length_ / stiffest;
   dt_ = coarsening * (step > 0 ? step : 0.5 * std::min(limit_, loose));
   if (dt_ > 0.95 * limit_ && !allow_unstable)
     throw std::invalid_argument(fmt::format(

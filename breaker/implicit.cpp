@@ -29,7 +29,7 @@ Implicit::Implicit(const BreakupModel& model, const Protocol& protocol, const st
       hydrodynamics_(radius, model.viscosity, model.hydro,
                      0.1 * tolerance > 10 * BodyHydrodynamics::single_error ? BodyHydrodynamics::Precision::float32
                                                                             : BodyHydrodynamics::Precision::float64),
-      solver_(radius_, length_, network_.laws()) {
+      solver_(radius_, length_, network_.laws(), network_.surface_pairs()) {
   hydrodynamics_.renew_far_field(frame_.position);
   far_reference_ = near_reference_ = frame_.position;
   rate_.setZero(6 * static_cast<Eigen::Index>(radius.size()));

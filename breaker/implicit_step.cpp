@@ -8,8 +8,9 @@ namespace crumble::breaker {
 
 using Eigen::VectorXd;
 
-ImplicitStep::ImplicitStep(const std::vector<double>& radius, double length, const BondLaws& laws)
-    : radius_(radius), length_(length), laws_(laws) {}
+ImplicitStep::ImplicitStep(const std::vector<double>& radius, double length, const BondLaws& laws,
+                           const SurfacePairs* surface_pairs)
+    : radius_(radius), length_(length), laws_(laws), surface_pairs_(surface_pairs) {}
 
 BondEnds ImplicitStep::ends(const Contact& bond) const { return {radius_[bond.i], radius_[bond.j], length_, length_}; }
 
@@ -32,6 +33,7 @@ void ImplicitStep::foresee(const Frame& frame, const VectorXd& q) {
 double ImplicitStep::bond_energy(const Frame& frame, const VectorXd& q) const {
   double energy = 0;
   for (const Contact& bond : bonds_) energy += increment(frame, bond, q).energy();
+  if (surface_pairs_) energy += surface_pairs_->energy(frame, q);
   return energy;
 }
 
@@ -45,6 +47,7 @@ void ImplicitStep::set_gradient(const Frame& frame, const Problem& problem, cons
     gradient_.segment<6>(6 * bond.i) += g_i;
     gradient_.segment<6>(6 * bond.j) += g_j;
   }
+  if (surface_pairs_) surface_pairs_->add_gradient(frame, q, gradient_);
 }
 
 bool ImplicitStep::factorise(const Frame& frame, const Problem& problem, const VectorXd& q, Curvature curvature) {
@@ -56,6 +59,7 @@ bool ImplicitStep::factorise(const Frame& frame, const Problem& problem, const V
     matrix_.block<6, 6>(6 * bond.j, 6 * bond.j) += K_jj;
     matrix_.block<6, 6>(6 * bond.j, 6 * bond.i) += K_ij.transpose();  // i < j: the lower triangle
   }
+  if (surface_pairs_) surface_pairs_->add_stiffness(frame, q, curvature, matrix_);
   return dense::cholesky<double>(matrix_) == 0;
 }
 
@@ -70,6 +74,7 @@ ImplicitStep::Outcome ImplicitStep::solve(const Frame& frame, const Problem& pro
     const BondLaw& law = laws_(bond.i, bond.j);
     noise += 1e-14 * law.pull_off_force() * law.jkr.length;
   }
+  if (surface_pairs_) noise += 1e-14 * std::abs(surface_pairs_->energy(frame, q));
   // The factor of an earlier iteration goes downhill as well, and its solves cost an eighth of a new one (order 690).
   constexpr double contraction = 0.1;
   bool renew = true;

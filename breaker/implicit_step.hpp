@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <vector>
 
+#include "breaker/surface_pairs.hpp"
 #include "common/agglomerate/bond_increment.hpp"
 #include "common/contact/bond_laws.hpp"
 
@@ -19,7 +20,9 @@ namespace crumble::breaker {
 // R is dense, so a factor is one of order 6N: it is kept over the iterations of a step while corrections fall tenfold.
 class ImplicitStep {
  public:
-  ImplicitStep(const std::vector<double>& radius, double length, const BondLaws& laws);
+  // surface_pairs: forces between near surfaces, whose energies are added; nullptr: none.
+  ImplicitStep(const std::vector<double>& radius, double length, const BondLaws& laws,
+               const SurfacePairs* surface_pairs = nullptr);
 
   struct Problem {
     const Eigen::MatrixXd& resistance;  // R, N s/m, both triangles
@@ -38,6 +41,7 @@ class ImplicitStep {
   const std::vector<double>& radius_;
   double length_;
   const BondLaws& laws_;
+  const SurfacePairs* surface_pairs_;
   std::vector<Contact> bonds_;  // foreseen for the end of the step
   Eigen::MatrixXd matrix_;
   Eigen::VectorXd gradient_, correction_, dragged_, dragged_correction_, trial_;

@@ -14,7 +14,7 @@ Integrator::Integrator(const BreakupModel& model, const Protocol& protocol, cons
       radius_(radius),
       length_(mean_radius(Spheres{{}, radius})),
       frame_(std::move(frame)),
-      network_(model.contact, model.material, radius_, frame_) {}
+      network_(model.contact, model.material, radius_, frame_, model.surface_forces) {}
 
 bool Integrator::move(const Eigen::VectorXd& q, double time) {
   for (std::size_t p = 0; p < frame_.position.size(); ++p) {

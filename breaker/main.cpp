@@ -13,6 +13,7 @@
 #include "common/io/machine.hpp"
 #include "common/io/output_lock.hpp"
 #include "common/io/program.hpp"
+#include "common/io/surface_forces_parameters.hpp"
 
 using namespace crumble;
 using namespace crumble::breaker;
@@ -57,6 +58,14 @@ int break_up(int argc, const char* const* argv) {
   progress.say(granule_line(text, parent));
   if (const std::string warning = material_warning(text); !warning.empty()) progress.say(warning);
   report_inputs(report, text, parent);
+  if (const auto& forces = scene.model.surface_forces) {
+    const double a = scene.radius.value_or(parent.radius);
+    check_surface_forces(text, *forces, scene.model.material, a, a);
+    const PairOutlook look =
+        outlook(*forces, scene.model.contact, scene.model.material, a, forces->electrolyte.ionic_strength);
+    for (const std::string& fact : describe(look, "in this liquid")) progress.say(fact);
+    report_outlook(report, "surface_forces", look);
+  }
   const Start start = make_start(std::move(agglomerate), input, scene);
   adapt(scene, start.rigid_strength);
   for (const std::string& fact : describe(scene, start)) progress.say(fact);

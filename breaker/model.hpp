@@ -1,8 +1,11 @@
 // The physics that a scene asks for.
 #pragma once
 
+#include <optional>
+
 #include "common/contact/bond_law.hpp"
 #include "common/hydro/model.hpp"
+#include "common/surface_forces/surface_forces.hpp"
 
 namespace crumble::breaker {
 
@@ -13,6 +16,7 @@ struct BreakupModel {
   HydroModel hydro{Rung::fts_relative_lubrication};
   double weak_stress = 2;  // Pa; a flow below it is too weak to matter: no step is shorter for it
   Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();  // of the flow at unit shear rate sqrt(2 E:E); zero: at rest
+  std::optional<SurfaceForces> surface_forces;
 };
 
 }  // namespace crumble::breaker

@@ -7,6 +7,7 @@
 
 #include "common/io/plausible.hpp"
 #include "common/io/shared_parameters.hpp"
+#include "common/io/surface_forces_parameters.hpp"
 
 namespace crumble::breaker {
 
@@ -68,6 +69,7 @@ const ParameterTable& breaker_parameters() {
       material_section(),
       contact_section(),
       loading_fluid_section(),
+      surface_forces_section(),
       hydrodynamics_section(
           {"fts", "fts-lubrication", "fts-relative-lubrication"}, "fts-relative-lubrication",
           "Far field; with pair lubrication as in Eq. 9; with pair lubrication on relative motion only"),
@@ -170,6 +172,8 @@ BreakerScene breaker_scene(const Scene& scene) {
   s.only_largest = scene.choice("particle.fragments") == "largest";
   s.largest_gap = scene.real("particle.largest_gap");
   s.model.material = material_in(scene);
+  take_surface_energy(scene, s.model.material);
+  s.model.surface_forces = surface_forces_in(scene, scene.real("fluid.temperature"));
   s.model.contact = contact_in(scene);
   s.liquid = liquid_in(scene);
   s.model.viscosity = s.liquid.viscosity;

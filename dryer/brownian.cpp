@@ -19,6 +19,25 @@ namespace {
 // Six standard deviations of the approach of two particles within `time`, m.
 double approach(double diffusivity, double time) { return 6 * std::sqrt(4 * diffusivity * time); }
 
+// Of the forces between surfaces of two particles of radius a, at the ionic strengths that the droplet may have, N/m.
+double surface_stiffness(const DryingModel& model, double a) {
+  if (!model.surface_forces) return 0;
+  const std::vector<double> radius{a, a};
+  const BondLaws bonds(model.contact, model.material, radius);
+  SurfaceForceLaws laws(*model.surface_forces, bonds, radius);
+  double stiffest = 0;
+  const double from = model.surface_forces->electrolyte.ionic_strength, to = model.surface_forces->solubility;
+  constexpr int steps = 8;
+  for (int k = 0; k <= steps; ++k) {
+    laws.set_ionic_strength(from * std::pow(to / from, static_cast<double>(k) / steps));
+    stiffest = std::max(stiffest, laws.largest_stiffness());
+  }
+  return stiffest;
+}
+
+// Of the stiffness that a long step of explicit Euler is stable for, half of which soft pairs may have in sum.
+constexpr double soft_share = 0.05;
+
 SixVector same_for_all_directions(double translation, double rotation) {
   return six_vector((Vector6() << Vector3::Constant(translation), Vector3::Constant(rotation)).finished());
 }
@@ -29,7 +48,7 @@ double Brownian::short_step(const DryingModel& model, double a, double contact_s
   const BondLaw law(model.contact, model.material, a, a);
   // Dry particles may move more easily; their contacts must be resolved too.
   const double drag = std::min(1.0, model.dry.drag_factor) * drag_coefficient(model.viscosity, a);
-  return contact_step * drag / std::max(law.normal_stiffness(), law.k_s);
+  return contact_step * drag / std::max({law.normal_stiffness(), law.k_s, surface_stiffness(model, a)});
 }
 
 Brownian::Scales Brownian::scales(const DryingModel& model, const Agglomerate& state, const BrownianControl& control) {
@@ -57,6 +76,13 @@ Brownian::Brownian(const DryingModel& model, Agglomerate& state, std::uint64_t s
     drag_.push_back(dt_ / drag_coefficient(model.viscosity, a));
     turning_drag_.push_back(dt_ / rotational_drag_coefficient(model.viscosity, a));
   }
+  if (model.surface_forces)
+    surface_forces_.emplace(model, laws_, state.particles,
+                            soft_share * drag_coefficient(model.viscosity, scales.radius) / long_step(), margin_);
+}
+
+std::optional<double> Brownian::ionic_strength() const {
+  return surface_forces_ ? std::optional(surface_forces_->ionic_strength()) : std::nullopt;
 }
 
 bool Brownian::is_dry(std::int32_t p) const {
@@ -93,6 +119,10 @@ void Brownian::classify() {
     if ((f.position[pair.j] - f.position[pair.i]).squaredNorm() < reach * reach) near.push_back(pair);
   }
   near_.assign(place_.size(), 0);
+  if (surface_forces_) {
+    surface_forces_->begin(f, R_);
+    for (const Pair& pair : surface_forces_->stiff_pairs()) near_[pair.i] = near_[pair.j] = 1;
+  }
   for (const Pair& pair : near) near_[pair.i] = near_[pair.j] = 1;
   for (const Contact& bond : f.contacts) near_[bond.i] = near_[bond.j] = 1;
   // Those in the liquid come first: only they need noise.
@@ -134,6 +164,7 @@ void Brownian::gather() {
   }
   bonds_.clear(fast_.size());
   for (const Contact& bond : f.contacts) add_bond(bond, place_[bond.i], place_[bond.j]);
+  if (surface_forces_) surface_forces_->gather(place_, count, f.contacts);
   path_.fill({fast_.data(), noisy_}, static_cast<std::uint64_t>(statistics_.steps), control_.depth, stride, noise_);
 }
 
@@ -162,7 +193,9 @@ void Brownian::fast_step(int step) {
     const auto bond = static_cast<std::size_t>(*b);
     const std::int32_t i = bonds_.first(bond), j = bonds_.second(bond);
     open_places_.push_back({i, j});
-    open_.open({static_cast<std::int32_t>(fast_[i]), static_cast<std::int32_t>(fast_[j])});
+    const Pair pair{static_cast<std::int32_t>(fast_[i]), static_cast<std::int32_t>(fast_[j])};
+    open_.open(pair);
+    if (surface_forces_) surface_forces_->set_bonded(pair, false);
     bonds_.remove(bond);
     ++statistics_.contacts_lost;
   }
@@ -192,8 +225,10 @@ void Brownian::predict(int step) {
 // Adds the way that the loads push within the step.
 void Brownian::push() {
   surface();
+  if (surface_forces_) surface_forces_->evaluate(motion_.position);
   for (std::size_t m = 0; m < fast_.size(); ++m) {
-    const Six loads = bonds_.load_on(m) + six(block_.pull[m] * in_single(load(motion_.position[m])), 0);
+    Six loads = bonds_.load_on(m) + six(block_.pull[m] * in_single(load(motion_.position[m])), 0);
+    if (surface_forces_) loads += six(surface_forces_->force(m) + surface_forces_->soft_force(fast_[m]), 0);
     store(block_.ahead[m], load(block_.ahead[m]) + load(block_.drag[m]) * loads);
   }
 }
@@ -216,6 +251,7 @@ void Brownian::touch() {
     const Pair pair{static_cast<std::int32_t>(fast_[i]), static_cast<std::int32_t>(fast_[j])};
     add_bond(make_bond(laws_(pair.i, pair.j), pair.i, pair.j, D, a_i, a_j, state_.state.step), i, j);
     open_.close(pair);
+    if (surface_forces_) surface_forces_->set_bonded(pair, true);
     open_places_.erase(open_places_.begin() + static_cast<std::ptrdiff_t>(q));
     ++statistics_.contacts_made;
   }
@@ -243,6 +279,10 @@ void Brownian::advance_slow() {
     const double r = half.norm();
     x += dW;
     if (surface_cuts(a, r, R_)) x -= drag * capillary_force(model_.droplet.surface_tension, a, r - R_) / r * half;
+    if (surface_forces_) {
+      const Quad& force = surface_forces_->soft_force(p);
+      x += drag * Vector3(force[0], force[1], force[2]);
+    }
   }
 }
 

@@ -1,9 +1,12 @@
 // The integrator for particles that diffuse: no inertia, thermal noise, contacts in short steps.
 #pragma once
 
+#include <optional>
+
 #include "dryer/bond_block.hpp"
 #include "dryer/brownian_path.hpp"
 #include "dryer/integrator.hpp"
+#include "dryer/surface_loads.hpp"
 #include "dryer/work.hpp"
 
 namespace crumble::dryer {
@@ -30,6 +33,9 @@ struct BrownianStage {
 //
 // whose x have the exact Boltzmann distribution in a harmonic well, for any stable step.
 // A particle left dry has no noise (model.dry).
+//
+// Surface forces: pairs that are stiff against the long step join the short ones; those of the others stand over a long
+// step, which is then explicit Euler for them: its variance in a harmonic well is off by less than soft_share/2.
 class Brownian : public Integrator {
  public:
   static constexpr std::string_view summary =
@@ -47,10 +53,13 @@ class Brownian : public Integrator {
   static Work expected_work(const DryingModel& model, const std::vector<double>& radius,
                             const std::vector<BrownianStage>& stages, double contact_step, const StepTimes& times);
 
-  // contact_step times zeta/k_n of the smallest pair, s.
+  // contact_step times zeta/k of the smallest pair, s: k the stiffest of its contact and its surface forces, at the
+  // ionic strengths from the start to the solubility.
   static double short_step(const DryingModel& model, double a, double contact_step);
   double short_step() const { return dt_; }
   double long_step() const { return dt_ * static_cast<double>(substeps_); }
+  // Of the liquid, where the scene has surface forces, mol/m^3.
+  std::optional<double> ionic_strength() const override;
 
  private:
   struct Scales {
@@ -99,6 +108,7 @@ class Brownian : public Integrator {
   MotionBlock motion_;
   BondBlock bonds_;
   std::vector<float> noise_, slow_noise_;
+  std::optional<SurfaceLoads> surface_forces_;
 };
 
 }  // namespace crumble::dryer

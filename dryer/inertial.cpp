@@ -23,13 +23,24 @@ Inertial::Inertial(const DryingModel& model, Agglomerate& state, double step, st
     const double e = -0.5 * zeta * step / m, e_r = -0.5 * zeta_r * step / (0.4 * m * a * a);
     kicks_.push_back({std::exp(e), -std::expm1(e) / zeta, std::exp(e_r), -std::expm1(e_r) / zeta_r});
   }
+  if (model.surface_forces) surface_pairs_.emplace(*model.surface_forces, model.droplet, laws_, state.particles, 0);
+}
+
+std::optional<double> Inertial::ionic_strength() const {
+  return surface_pairs_ ? std::optional(surface_pairs_->laws().electrolyte().ionic_strength) : std::nullopt;
 }
 
 double Inertial::recommended_step(const DryingModel& model, const Particles& particles) {
   const auto smallest = std::min_element(particles.radius.begin(), particles.radius.end()) - particles.radius.begin();
   const double a = particles.radius[smallest];
   const BondLaw law(model.contact, model.material, a, a);
-  return 0.2 * std::sqrt(particles.mass[smallest] / std::max(law.normal_stiffness(), law.k_s));
+  double stiffest = std::max(law.normal_stiffness(), law.k_s);
+  if (model.surface_forces) {
+    const std::vector<double> radius{a, a};
+    const BondLaws bonds(model.contact, model.material, radius);
+    stiffest = std::max(stiffest, SurfaceForceLaws(*model.surface_forces, bonds, radius).largest_stiffness());
+  }
+  return 0.2 * std::sqrt(particles.mass[smallest] / stiffest);
 }
 
 void Inertial::step(double latest_time) {
@@ -95,6 +106,10 @@ void Inertial::evaluate_forces() {
     const double zeta_r = rotational_drag_coefficient(model_.viscosity, radius[p]);
     f.force[p] += random_load(model_.thermal_energy, zeta, step_) * random_vector(Purpose::brownian_force, p);
     f.torque[p] += random_load(model_.thermal_energy, zeta_r, step_) * random_vector(Purpose::brownian_torque, p);
+  }
+  if (surface_pairs_) {
+    surface_pairs_->update(f, R);
+    surface_pairs_->add_forces(f, f.force);
   }
   for (const Contact& bond : f.contacts) {
     const Vector3 force = force_on_j(bond);

@@ -4,6 +4,7 @@
 
 #include "common/numerics/noise.hpp"
 #include "dryer/integrator.hpp"
+#include "dryer/surface_pairs.hpp"
 #include "dryer/work.hpp"
 
 namespace crumble::dryer {
@@ -22,8 +23,10 @@ class Inertial : public Integrator {
 
   // Throws std::domain_error naming the particle if a velocity is no longer finite (step too large).
   void step(double latest_time) override;
+  std::optional<double> ionic_strength() const override;
 
   // 0.2 sqrt(m/k), k the stiffest spring of the smallest particle: a fifth of the period of a bonded pair / 2 pi.
+  // With surface forces also of the stiffest gap of theirs, at the start.
   static double recommended_step(const DryingModel& model, const Particles& particles);
 
   // The fixed step, for all particles from the beginning to the end.
@@ -45,6 +48,7 @@ class Inertial : public Integrator {
     double kept, gained, kept_rotation, gained_rotation;
   };
   std::vector<HalfKick> kicks_;  // per particle
+  std::optional<SurfacePairs> surface_pairs_;
 };
 
 }  // namespace crumble::dryer

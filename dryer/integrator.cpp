@@ -21,7 +21,7 @@ Integrator::Integrator(const DryingModel& model, Agglomerate& state, double skin
   const Frame& f = state.state;
   if (skin > 0) open_.update(f.position, state.particles.radius, f.contacts);
   if (f.time == 0) activity_.front_at(front_.radius(0));  // later the front may be slower than it looks: fields()
-  if (model.thermal_energy > 0)
+  if (model.thermal_energy > 0 || model.surface_forces)
     for (std::size_t p = 0; p < state.particles.size(); ++p) activity_.wake(static_cast<std::int32_t>(p));
 }
 

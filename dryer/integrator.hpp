@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -34,6 +35,8 @@ class Integrator {
 
   const IntegratorStatistics& statistics() const { return statistics_; }
   const Front& front() const { return front_; }
+  // Of the liquid as the last step saw it, mol/m^3; nothing without surface forces.
+  virtual std::optional<double> ionic_strength() const { return std::nullopt; }
 
   // All that the next step depends on beside the state, for a restart to the same bits.
   virtual void fields(SavedFields& f);

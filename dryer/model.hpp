@@ -1,7 +1,10 @@
 // The physics that a scene asks for.
 #pragma once
 
+#include <optional>
+
 #include "common/contact/bond_law.hpp"
+#include "common/surface_forces/surface_forces.hpp"
 #include "dryer/capillary.hpp"
 #include "dryer/droplet.hpp"
 
@@ -21,6 +24,7 @@ struct DryingModel {
   Material material;
   ContactChoice contact;
   DryParticles dry;
+  std::optional<SurfaceForces> surface_forces;
 };
 
 }  // namespace crumble::dryer

@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "common/io/surface_forces_parameters.hpp"
+#include "common/surface_forces/stability.hpp"
 #include "dryer/drag.hpp"
 #include "dryer/inertial.hpp"
 #include "dryer/outcome.hpp"
@@ -63,6 +65,23 @@ std::string_view integrator_summary(const DryingScene& s) {
   return Brownian::summary;
 }
 
+namespace {
+
+// Where the solids take up this share of what is left: a random packing is full, the liquid is what is in its pores.
+constexpr double packed = 0.64;
+
+// The pair at the start, and with the salt that the packed droplet has.
+std::optional<std::pair<PairOutlook, PairOutlook>> outlooks(const DryingScene& s) {
+  if (!s.model.surface_forces) return std::nullopt;
+  const SurfaceForces& f = *s.model.surface_forces;
+  const double phi = drying_regime(s).solids_fraction;
+  const double end = concentrated(f.electrolyte.ionic_strength, 1 - phi, phi / packed - phi, f.solubility);
+  const auto at = [&](double I) { return outlook(f, s.model.contact, s.model.material, s.nominal_radius, I); };
+  return std::pair{at(f.electrolyte.ionic_strength), at(end)};
+}
+
+}  // namespace
+
 std::vector<std::string> describe(const DryingScene& s) {
   const DryingRegime r = drying_regime(s);
   const double a = s.nominal_radius, R0 = s.model.droplet.initial_radius, mu = s.model.viscosity;
@@ -105,6 +124,14 @@ std::vector<std::string> describe(const DryingScene& s) {
   lines.push_back(fmt::format("time scales: inertia {:.2g} s, contact {:.2g} s, drying {:.2g} s",
                               m / drag_coefficient(mu, a), drag_coefficient(mu, a) / law.normal_stiffness(),
                               s.model.droplet.lifetime));
+  if (const auto pair = outlooks(s)) {
+    for (const auto& [look, name] :
+         {std::pair{pair->first, "at the start"}, std::pair{pair->second, "when the solids are packed"}})
+      for (const std::string& line : crumble::describe(look, name)) lines.push_back(line);
+    lines.push_back(fmt::format(
+        "half of the particles would meet another within {:.2g} s without repulsion, W times that with it",
+        rapid_coagulation_half_time(mu, a, r.solids_fraction, s.model.surface_forces->electrolyte.thermal_energy)));
+  }
   lines.push_back(r.words());
   const Expected expected = expected_shape(r);
   lines.push_back(fmt::format("expected shape: {}; {}", name_of(expected.shape), expected.why));
@@ -147,6 +174,10 @@ void report_regime(Report& report, const DryingScene& s) {
   report.result("inputs.capillary_speed_limit_m_per_s", r.capillary_speed);
   report.result("inputs.force_ratio", r.force_ratio);
   report.result("inputs.packed_front_over_capillary_speed", r.packed_front_speed / r.capillary_speed);
+  if (const auto pair = outlooks(s)) {
+    report_outlook(report, "surface_forces_at_start", pair->first);
+    report_outlook(report, "surface_forces_packed", pair->second);
+  }
   report.result("inputs.regime", r.words());
   if (s.gas) report_gas(report, *s.gas);
   report.result("inputs.integrator", std::string(integrator_summary(s)));

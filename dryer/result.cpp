@@ -64,10 +64,13 @@ void fill_left_out(Report& report, const DryingScene& scene, const DryingRun& ru
     report.left_out.push_back(fmt::format("inertia: velocities relax within {:.2g} s, the liquid lives {:.2g} s",
                                           inertia, scene.model.droplet.lifetime));
   }
-  report.left_out.push_back(
-      "hydrodynamic interaction between particles: free draining (paper, section 2.1); lubrication and attraction "
-      "before "
-      "contact: opposite effects, both neglected as in the paper");
+  report.left_out.push_back(scene.model.surface_forces
+                                ? "hydrodynamic interaction between particles: free draining (paper, section 2.1), no "
+                                  "lubrication, which slows "
+                                  "the approach down (stability ratio with and without it in surface_forces_at_start)"
+                                : "hydrodynamic interaction between particles: free draining (paper, section 2.1); "
+                                  "lubrication and attraction "
+                                  "before contact: opposite effects, both neglected as in the paper");
 }
 
 }  // namespace
@@ -96,6 +99,7 @@ void fill_report(Report& report, const DryingScene& scene, const DryingRun& run,
   report.result("contacts_made", s.contacts_made);
   report.result("contacts_lost", s.contacts_lost);
   report.result("particle_steps", s.particle_steps);
+  if (const auto salt = run.integrator().ionic_strength()) report.result("last_ionic_strength_mol_per_m3", *salt);
 
   report.error("largest_overlap_over_a", s.largest_overlap,
                "deepest overlap of two bonded particles at the end of any step");

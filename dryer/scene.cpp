@@ -9,6 +9,7 @@
 #include "common/contact/small_contact.hpp"
 #include "common/io/plausible.hpp"
 #include "common/io/shared_parameters.hpp"
+#include "common/io/surface_forces_parameters.hpp"
 #include "dryer/inertial.hpp"
 #include "dryer/process_inputs.hpp"
 #include "dryer/softening.hpp"
@@ -46,11 +47,33 @@ IntegratorKind integrator_kind(const Scene& scene, const DryingModel& model) {
   return method == "implicit" || !jkr ? IntegratorKind::implicit : IntegratorKind::stabilised;
 }
 
+// What surface forces ask of the other keys.
+void take_surface_forces(const Scene& scene, DryingScene& s) {
+  // Of a droplet in a gas that at its start: the forces go with kT, which moves by a tenth at most.
+  s.model.surface_forces =
+      surface_forces_in(scene, s.liquid.empty() ? scene.real("fluid.temperature") : s.liquid.front().temperature);
+  if (!s.model.surface_forces) return;
+  const SurfaceForces& forces = *s.model.surface_forces;
+  check_surface_forces(scene, forces, s.model.material, s.smallest_radius(), s.largest_radius());
+  if (!s.is(IntegratorKind::brownian) && !s.is(IntegratorKind::inertial))
+    throw scene.error("integrator.method",
+                      fmt::format("knows no surface forces (surface_forces.hamaker, {}) without Brownian motion; set "
+                                  "particle.brownian_motion = true or integrator.method = \"inertial\"",
+                                  scene.where("surface_forces.hamaker")));
+  if (scene.origin("integrator.softening") == Scene::Origin::given && s.softening != 1 &&
+      s.is(IntegratorKind::brownian))
+    throw scene.error(
+        "integrator.softening",
+        "is of bonds alone; with surface_forces contacts have the material's stiffness: set 1, or remove it");
+  s.softening = 1;
+}
+
 }  // namespace
 
 DryingModel drying_model(const Scene& scene, const ProcessInputs& process) {
   DryingModel model;
   model.material = material_in(scene);
+  take_surface_energy(scene, model.material);
   model.viscosity = process.viscosity;
   model.thermal_energy = process.thermal_energy;
   model.droplet = {scene.real("droplet.radius"), process.lifetime,
@@ -98,6 +121,7 @@ DryingScene drying_scene(const Scene& scene, const Machine& machine) {
   // With noise the paths of two step lengths part; the error is one of means over many seeds.
   s.estimate_error = scene.flag("error.estimate") && s.model.thermal_energy == 0;
 
+  take_surface_forces(scene, s);
   if (!can_be_softened(s, s.softening)) s.softening = 1;
 
   if (s.is(IntegratorKind::inertial)) {

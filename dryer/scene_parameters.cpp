@@ -1,5 +1,6 @@
 // The keys of a drying scene.
 #include "common/io/shared_parameters.hpp"
+#include "common/io/surface_forces_parameters.hpp"
 #include "dryer/gas/gas_side.hpp"
 #include "dryer/scene.hpp"
 
@@ -127,6 +128,7 @@ const ParameterTable& drying_parameters() {
         initial_temperature_parameter()}},
       gas_section(),
       contact(),
+      surface_forces_section(),
       {"dry",
        "A particle that the liquid has left behind (r > R + a). No capillary force acts on it; its bonds stay.",
        {P::flag("everything_acts", "Thermal noise goes on as in the liquid").by_default(false),

@@ -54,7 +54,7 @@ Analysis analyse(Prepared prepared, const std::string& name, const StressScene& 
     }();
     b.bridges = network.bridges();
     Judged judged = judged_response(network, b.centre, scene.hydrodynamics, say, done);
-    b.loaded = {std::move(judged.response), pull_off_of(a.prepared, part, scene.material)};
+    b.loaded = {std::move(judged.response), pull_off_of(a.prepared, part, scene.material, scene.surface_forces)};
     b.body = std::move(part);
     if (a.bodies.empty()) {
       a.method = judged.method;

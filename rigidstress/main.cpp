@@ -14,6 +14,7 @@
 #include "common/io/provenance.hpp"
 #include "common/io/sha256.hpp"
 #include "common/io/state_keeper.hpp"
+#include "common/io/surface_forces_parameters.hpp"
 #include "common/numerics/noise.hpp"
 #include "rigidstress/result.hpp"
 #include "rigidstress/stress_file.hpp"
@@ -83,6 +84,16 @@ int load(int argc, const char* const* argv) {
   say(granule_line(text, parent));
   if (const std::string warning = material_warning(text); !warning.empty()) say(warning);
   report_inputs(report, text, parent);
+  if (scene.surface_forces) {
+    const double a = scene.radius.value_or(parent.radius);
+    check_surface_forces(text, *scene.surface_forces, scene.material, a, a);
+    const PairOutlook look =
+        outlook(*scene.surface_forces, {}, scene.material, a, scene.surface_forces->electrolyte.ionic_strength);
+    for (const std::string& fact : describe(look, "in this liquid")) say(fact);
+    say("of the surface forces the pull-off force in this liquid counts here, and nothing else: contacts that are not "
+        "broken do not feel the others");
+    report_outlook(report, "surface_forces", look);
+  }
   std::optional<Analysis> analysis = restore(input, text, scene);
   std::optional<Prepared> prepared;
   if (analysis) {

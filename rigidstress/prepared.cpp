@@ -8,6 +8,7 @@
 #include "common/contact/jkr.hpp"
 #include "common/contact/small_contact.hpp"
 #include "common/io/errors.hpp"
+#include "common/surface_forces/pair_forces.hpp"
 
 namespace crumble::rigidstress {
 
@@ -84,11 +85,17 @@ Vector3 centre_of(const Prepared& p, const Body& body) {
   return sum / mass;
 }
 
-std::vector<double> pull_off_of(const Prepared& p, const Body& body, const Material& material) {
+std::vector<double> pull_off_of(const Prepared& p, const Body& body, const Material& material,
+                                const std::optional<SurfaceForces>& surface_forces) {
   std::vector<double> force;
+  const BondLaws bonds({}, material, p.particles.radius);
+  std::optional<SurfaceForceLaws> in_liquid;
+  if (surface_forces) in_liquid.emplace(*surface_forces, bonds, p.particles.radius);
   for (const int b : body.contact) {
     const Contact& c = p.frame.contacts[b];
-    force.push_back(pull_off_force(material, pair_radius(p.particles.radius[c.i], p.particles.radius[c.j])));
+    force.push_back(in_liquid
+                        ? (*in_liquid)(c.i, c.j).pull_off_force()
+                        : pull_off_force(material, pair_radius(p.particles.radius[c.i], p.particles.radius[c.j])));
   }
   return force;
 }

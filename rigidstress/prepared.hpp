@@ -7,6 +7,7 @@
 
 #include "common/agglomerate/closing.hpp"
 #include "common/rigid/network.hpp"
+#include "common/surface_forces/surface_forces.hpp"
 
 namespace crumble::rigidstress {
 
@@ -46,6 +47,8 @@ std::vector<Body> bodies(const Prepared& prepared);  // as fragments: largest fi
 Network network_of(const Prepared& prepared, const Body& body, const JointChoice& choice, const Material& material);
 
 Vector3 centre_of(const Prepared& prepared, const Body& body);  // centre of mass of `position`, m
-std::vector<double> pull_off_of(const Prepared& prepared, const Body& body, const Material& material);  // N
+// Of each contact, N; in a liquid with surface forces less by what its double layers repel at pull-off.
+std::vector<double> pull_off_of(const Prepared& prepared, const Body& body, const Material& material,
+                                const std::optional<SurfaceForces>& surface_forces);
 
 }  // namespace crumble::rigidstress

@@ -8,6 +8,7 @@
 
 #include "common/io/plausible.hpp"
 #include "common/io/shared_parameters.hpp"
+#include "common/io/surface_forces_parameters.hpp"
 #include "rigidstress/track_files.hpp"
 
 namespace crumble::rigidstress {
@@ -44,6 +45,7 @@ const ParameterTable& stress_parameters() {
                               "each piece as if it were alone in the flow")},
       material_section(),
       fluid(),
+      surface_forces_section(),
       {"contact",
        "How contacts share the loads: elastic joints of six degrees of freedom.",
        {P::choice("normal_stiffness", {"tangent", "secant"},
@@ -153,6 +155,8 @@ StressScene stress_scene(const Scene& scene) {
   require_radius(scene, "particle.radius");
   if (scene.is_set("particle.radius")) s.radius = scene.real("particle.radius");
   s.material = material_in(scene);
+  take_surface_energy(scene, s.material);
+  s.surface_forces = surface_forces_in(scene, scene.real("fluid.temperature"));
   s.liquid = liquid_in(scene);
   s.joint.normal =
       scene.choice("contact.normal_stiffness") == "tangent" ? NormalStiffness::tangent : NormalStiffness::secant;

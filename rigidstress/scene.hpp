@@ -8,6 +8,7 @@
 #include "common/io/parameters.hpp"
 #include "common/io/service_load.hpp"
 #include "common/rigid/joint.hpp"
+#include "common/surface_forces/surface_forces.hpp"
 #include "rigidstress/first_exit.hpp"
 #include "rigidstress/flows.hpp"
 #include "rigidstress/history.hpp"
@@ -22,7 +23,8 @@ enum class Pieces { refuse, largest, each };
 struct StressScene {
   std::optional<double> radius;  // m
   Material material;
-  Liquid liquid{1, 1000};  // shear rates and the history only
+  std::optional<SurfaceForces> surface_forces;  // of which the pull-off force in the liquid is all that matters here
+  Liquid liquid{1, 1000};                       // shear rates and the history only
   JointChoice joint;
   Pieces pieces = Pieces::refuse;
   double largest_gap = largest_listed_gap;  // in a

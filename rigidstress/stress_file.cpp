@@ -254,7 +254,7 @@ std::optional<Analysis> restore(const std::filesystem::path& path, const Scene& 
           matrix_at(load, 30 * static_cast<std::size_t>(parts[k].contact[row]), 6, 5);
     }
     r.tension = tension_rows(r.load, normal);
-    b.loaded.pull_off = pull_off_of(a.prepared, parts[k], scene.material);
+    b.loaded.pull_off = pull_off_of(a.prepared, parts[k], scene.material, scene.surface_forces);
     b.bridges = count_bridges(a.prepared, parts[k]);
     b.body = std::move(parts[k]);
     a.bodies.push_back(std::move(b));

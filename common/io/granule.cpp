@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/contact/material.hpp"
+#include "common/io/surface_forces_parameters.hpp"
 
 namespace crumble {
 
@@ -66,6 +67,12 @@ Properties properties_of(const Scene& scene, const Properties& parent) {
   Properties properties = parent;
   for (const TravellingKey& k : travelling_keys())
     if (const std::string key(k.key); scene.declares(key) && !scene.word(key)) properties[key] = scene.real(key);
+  if (scene.declares("surface_forces.hamaker")) {
+    Material material;
+    material.surface_energy = properties.at("material.surface_energy");
+    take_surface_energy(scene, material);
+    properties["material.surface_energy"] = material.surface_energy;
+  }
   return properties;
 }
 

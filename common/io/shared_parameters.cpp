@@ -102,6 +102,8 @@ Section loading_fluid_section() {
       P::real("density", "kg m-3", "Density rho of the liquid; only a dissipation rate in W/kg (--at) needs it")
           .above(0)
           .by_default(water_density));
+  section.parameters.push_back(
+      P::real("temperature", "K", "Temperature T of the liquid; only surface forces need it").above(0).by_default(300));
   return section;
 }
 

@@ -17,12 +17,16 @@ namespace {
 DryingScene small_scene(const std::string& kind) {
   const bool brownian = kind.ends_with("_with_noise");
   const std::string crust = kind.ends_with("_behind_a_crust") ? "[crust]\nrelative_diffusivity = 0.2\n" : "";
+  const std::string salt =
+      kind.find("_in_salt") == std::string::npos
+          ? ""
+          : "[surface_forces]\nhamaker = 9.85e-21\nsurface_potential = 0.04\nionic_strength = 10\n";
   const std::string method = kind.substr(0, kind.find('_'));
   const std::string text = std::string("[particle]\nradius = 10e-9\nnumber = 20\nbrownian_motion = ") +
                            (brownian ? "true" : "false") +
                            "\n[droplet]\nradius = 120e-9\nlifetime = 2e-7\n"
                            "[integrator]\nmethod = \"" +
-                           method + "\"\n" + crust;
+                           method + "\"\n" + crust + salt;
   return drying_scene(Scene::parse(text, "small.toml", drying_parameters()));
 }
 
@@ -79,7 +83,8 @@ TEST_P(Restart, continues_to_the_same_bits_from_any_step) {
 INSTANTIATE_TEST_SUITE_P(Integrators, Restart,
                          ::testing::Values("implicit", "stabilised", "inertial", "overdamped_with_noise",
                                            "inertial_with_noise", "implicit_behind_a_crust",
-                                           "stabilised_behind_a_crust", "inertial_behind_a_crust"));
+                                           "stabilised_behind_a_crust", "inertial_behind_a_crust",
+                                           "overdamped_in_salt_with_noise", "inertial_in_salt"));
 
 TEST(Checkpoint, that_lacks_a_field_or_has_one_too_many_is_refused_by_its_name) {
   const Folder folder;

@@ -81,6 +81,30 @@ class Program(unittest.TestCase):
         check = subprocess.run([AGGLOMERATE, "check", str(out)], capture_output=True, text=True)
         self.assertEqual(check.returncode, 0, check.stdout)
 
+    def test_surface_forces_lower_the_pull_off_force_in_the_liquid_and_change_nothing_else(self):
+        doublet = self.agglomerate([[0, 0, 0], [200, 0, 0]])
+        alone = self.stress(doublet, "hydrodynamics.method=fts")[0]["results"]
+        salt = ("surface_forces.hamaker=9.85e-21", "surface_forces.surface_potential=0.04",
+                "surface_forces.ionic_strength=100")
+        report, run, _ = self.stress(doublet, "hydrodynamics.method=fts", *salt)
+        charged, forces = report["results"], report["results"]["surface_forces"]
+        self.assertEqual(charged["elongation"]["n_max_worst"], alone["elongation"]["n_max_worst"])
+        ratio = forces["pull_off_force_in_liquid_n"] / forces["pull_off_force_n"]
+        self.assertLess(ratio, 0.9)
+        self.assertAlmostEqual(charged["elongation"]["critical_stress_worst_pa"] / alone["elongation"]["critical_stress_worst_pa"],
+                               ratio, delta=1e-6)
+        self.assertIn("the pull-off force in this liquid counts here, and nothing else", run.stderr)
+        twice = self.refused(doublet, *salt, "surface_forces.sets_surface_energy=true")
+        self.assertIn("material.surface_energy", twice.stderr)
+        scene = self.folder / "hamaker.toml"
+        scene.write_text("[surface_forces]\nhamaker = 9.85e-21\nsurface_potential = 0\nsets_surface_energy = true\n")
+        from_hamaker = self.stress(doublet, "hydrodynamics.method=fts", scene=scene)
+        with h5py.File(from_hamaker[2]) as file:  # A/(24 pi D0^2)
+            self.assertAlmostEqual(file["material/surface_energy"][()], 9.85e-21 / (24 * math.pi * 0.165e-9**2), delta=1e-9)
+        refused = self.refused(doublet, *salt[:1], "surface_forces.surface_potential=40", salt[2])
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("if mV were meant, write 0.04", refused.stderr)
+
     def test_far_field_by_override(self):
         report, _, _ = self.stress(self.agglomerate([[0, 0, 0], [200, 0, 0]]), "hydrodynamics.method=fts")
         self.assertAlmostEqual(report["results"]["elongation"]["n_max_worst"], 20 / 21, delta=1e-6)

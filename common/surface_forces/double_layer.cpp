@@ -1,0 +1,34 @@
+#include "common/surface_forces/double_layer.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace crumble {
+
+double effective_potential(const Electrolyte& electrolyte, double a, double potential) {
+  const double g = std::tanh(potential / (4 * electrolyte.thermal_voltage()));
+  const double x = electrolyte.inverse_debye_length() * a;
+  return 8 * g / (1 + std::sqrt(1 - (2 * x + 1) * g * g / ((x + 1) * (x + 1))));
+}
+
+double DoubleLayer::energy(double gap) const { return strength / (distance + gap) * std::exp(-kappa * gap); }
+
+double DoubleLayer::tension(double gap) const { return -energy(gap) * (kappa + 1 / (distance + gap)); }
+
+DoubleLayer double_layer(const Electrolyte& electrolyte, double a1, double a2, double effective_1, double effective_2) {
+  const double volt = electrolyte.thermal_voltage();
+  return {4 * std::numbers::pi * electrolyte.permittivity * volt * volt * effective_1 * effective_2 * a1 * a2, a1 + a2,
+          electrolyte.inverse_debye_length()};
+}
+
+double critical_coagulation_concentration(const Electrolyte& electrolyte, double potential, double hamaker) {
+  const double volt = electrolyte.thermal_voltage(), g = std::tanh(potential / (4 * volt));
+  const double kappa =
+      384 * std::numbers::pi * electrolyte.permittivity * volt * volt * g * g / (std::numbers::e * hamaker);
+  Electrolyte unit = electrolyte;
+  unit.ionic_strength = 1;
+  const double of_unit = unit.inverse_debye_length();
+  return kappa * kappa / (of_unit * of_unit);
+}
+
+}  // namespace crumble
