@@ -9,6 +9,7 @@
 #include "dryer/drag.hpp"
 #include "dryer/inertial.hpp"
 #include "dryer/outcome.hpp"
+#include "dryer/thermal_rupture.hpp"
 
 namespace crumble::dryer {
 
@@ -58,6 +59,25 @@ std::string_view integrator_summary(const DryingScene& s) {
   return Brownian::summary;
 }
 
+namespace {
+
+// Why it is the scene's.
+std::string integrator_reason(const DryingScene& s) {
+  if (s.model.thermal_energy == 0 || s.model.contact.normal != NormalLaw::jkr) return "";
+  const ThermalRupture rupture = thermal_rupture(s);
+  const std::string bond = fmt::format("; a bond is worth {:.3g} kT, ", rupture.bond);
+  if (!rupture.never()) return bond + "thermal motion breaks it";
+  const std::string none = bond + fmt::format("thermal motion breaks {:.1g} of all in the whole drying", rupture.most);
+  if (!s.is(IntegratorKind::stabilised)) return none;
+  return none + fmt::format(": steps follow diffusion ({:.2g} s for {:g} a) and the front, not how stiff contacts are",
+                            ThermalLoads::interval(s.model, s.smallest_radius(), s.stabilised.brownian_displacement),
+                            s.stabilised.brownian_displacement);
+}
+
+}  // namespace
+
+std::string integrator_text(const DryingScene& s) { return std::string(integrator_summary(s)) + integrator_reason(s); }
+
 std::vector<std::string> describe(const DryingScene& s) {
   const DryingRegime r = drying_regime(s);
   const double a = s.nominal_radius, R0 = s.model.droplet.initial_radius, mu = s.model.viscosity;
@@ -96,7 +116,7 @@ std::vector<std::string> describe(const DryingScene& s) {
   lines.push_back(r.words());
   const Expected expected = expected_shape(r);
   lines.push_back(fmt::format("expected shape: {}; {}", name_of(expected.shape), expected.why));
-  lines.push_back(fmt::format("integrator: {}", integrator_summary(s)));
+  lines.push_back(fmt::format("integrator: {}", integrator_text(s)));
   return lines;
 }
 
@@ -118,7 +138,7 @@ void report_regime(Report& report, const DryingScene& s) {
   report.result("inputs.force_ratio", r.force_ratio);
   report.result("inputs.packed_front_over_capillary_speed", r.packed_front_speed / r.capillary_speed);
   report.result("inputs.regime", r.words());
-  report.result("inputs.integrator", std::string(integrator_summary(s)));
+  report.result("inputs.integrator", integrator_text(s));
 }
 
 }  // namespace crumble::dryer
