@@ -1,6 +1,6 @@
 """Long steps with Brownian motion against short ones that resolve every contact, where bonds are worth 90 kT.
 
-60 particles of 100 nm (pipeline/scenes/strong_bonds.toml) at three Peclet numbers: the integrator that the dryer chooses,
+60 particles of 100 nm (pipeline/scenes/strong_bonds.toml) at four Peclet numbers: the integrator that the dryer chooses,
 `stabilised`, against `two-rate` with contacts of full stiffness. Both dry the same random starts; differences are those
 of each start, with the 95 % interval of their mean (Student's t).
 
@@ -15,7 +15,7 @@ from table import print_markdown
 
 SCENE = "pipeline/scenes/strong_bonds.toml"
 REFERENCE = {"integrator.method": "two-rate", "integrator.softening": 1}
-PECLET = [3000, 1000, 300]
+PECLET = [10000, 3000, 1000, 500]
 # key of the result, title, format, where the difference of the means must lie, of the mean
 QUANTITIES = [("d_c_nm", "d_c nm", ".1f", 0.01), ("h_c_over_d_c", "h_c/d_c", ".4f", None), ("contacts", "contacts", ".1f", 0.03)]
 
