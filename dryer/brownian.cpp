@@ -321,21 +321,6 @@ double drying_until(double solids, double packing) {
 // when the first is left dry, measured.
 double packing_with(double bonds) { return std::min(0.115 + (bonds - 0.3) * (0.26 - 0.115) / (1 - 0.3), 1.0); }
 
-// Share of the particles that have a neighbour within reach or a bond, where the solids take up `packing`: one minus
-// the chance of none (Poisson) in the shell in which the pair would be near, and in what a bond holds.
-double share_near(double packing, double a, double margin, double stickiness) {
-  const double shell = std::pow(1 + margin / (2 * a), 3) - 1 + 3 * std::min(stickiness, 100 * a) / (2 * a);
-  return 1 - std::exp(-8 * packing * shell);
-}
-
-// Bonds that thermal motion does not break: half of the particles have met after t = 3 mu/(4 kT n) (Smoluchowski).
-double share_clustered(const DryingModel& model, double number, double time) {
-  const double R = model.droplet.initial_radius;
-  const double density = number / (4.0 / 3 * std::numbers::pi * R * R * R);
-  const double half = 3 * model.viscosity / (4 * model.thermal_energy * density);
-  return time / (time + half);
-}
-
 }  // namespace
 
 Work Brownian::expected_work(const DryingModel& model, const std::vector<double>& radius,

@@ -11,6 +11,7 @@
 #include "dryer/drag.hpp"
 #include "dryer/inertial.hpp"
 #include "dryer/outcome.hpp"
+#include "dryer/thermal_rupture.hpp"
 
 namespace crumble::dryer {
 
@@ -80,7 +81,22 @@ std::optional<std::pair<PairOutlook, PairOutlook>> outlooks(const DryingScene& s
   return std::pair{at(f.electrolyte.ionic_strength), at(end)};
 }
 
+// Why it is the scene's.
+std::string integrator_reason(const DryingScene& s) {
+  if (s.model.thermal_energy == 0 || s.model.contact.normal != NormalLaw::jkr) return "";
+  const ThermalRupture rupture = thermal_rupture(s);
+  const std::string bond = fmt::format("; a bond is worth {:.3g} kT, ", rupture.bond);
+  if (!rupture.never()) return bond + "thermal motion breaks it";
+  const std::string none = bond + fmt::format("thermal motion breaks {:.1g} of all in the whole drying", rupture.most);
+  if (!s.is(IntegratorKind::stabilised)) return none;
+  return none + fmt::format(": steps follow diffusion ({:.2g} s for {:g} a) and the front, not how stiff contacts are",
+                            ThermalLoads::interval(s.model, s.smallest_radius(), s.stabilised.brownian_displacement),
+                            s.stabilised.brownian_displacement);
+}
+
 }  // namespace
+
+std::string integrator_text(const DryingScene& s) { return std::string(integrator_summary(s)) + integrator_reason(s); }
 
 std::vector<std::string> describe(const DryingScene& s) {
   const DryingRegime r = drying_regime(s);
@@ -135,7 +151,7 @@ std::vector<std::string> describe(const DryingScene& s) {
   lines.push_back(r.words());
   const Expected expected = expected_shape(r);
   lines.push_back(fmt::format("expected shape: {}; {}", name_of(expected.shape), expected.why));
-  lines.push_back(fmt::format("integrator: {}", integrator_summary(s)));
+  lines.push_back(fmt::format("integrator: {}", integrator_text(s)));
   return lines;
 }
 
@@ -180,7 +196,7 @@ void report_regime(Report& report, const DryingScene& s) {
   }
   report.result("inputs.regime", r.words());
   if (s.gas) report_gas(report, *s.gas);
-  report.result("inputs.integrator", std::string(integrator_summary(s)));
+  report.result("inputs.integrator", integrator_text(s));
 }
 
 }  // namespace crumble::dryer

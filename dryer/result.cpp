@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "dryer/drag.hpp"
+#include "dryer/thermal_loads.hpp"
 
 namespace crumble::dryer {
 
@@ -57,6 +58,17 @@ void fill_left_out(Report& report, const DryingScene& scene, const DryingRun& ru
   } else if (scene.is(IntegratorKind::brownian)) {
     report.left_out.push_back(
         fmt::format("short steps: {:.0f} % of the particle time went in long steps, far from any contact", spared));
+  } else if (scene.is(IntegratorKind::stabilised)) {
+    const double a = scene.smallest_radius();
+    const BondLaw law(scene.model.contact, scene.model.material, a, a);
+    report.left_out.push_back(fmt::format(
+        "free particles: {:.0f} % of all particle steps were not computed, where no bond, neighbour or surface is near",
+        spared));
+    report.left_out.push_back(fmt::format(
+        "thermal vibration of bonds: motion that relaxes in less than {:.2g} s has less than kT; that of the normal "
+        "distance is sqrt(kT/k_n) = {:.2g} nm",
+        ThermalLoads::interval(scene.model, a, scene.stabilised.brownian_displacement),
+        1e9 * std::sqrt(scene.model.thermal_energy / law.normal_stiffness())));
   }
   if (!scene.is(IntegratorKind::inertial)) {
     const double a = scene.largest_radius(), mu = scene.model.viscosity;

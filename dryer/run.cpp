@@ -23,7 +23,8 @@ std::unique_ptr<Integrator> make_integrator(const DryingScene& scene, const Dryi
     case IntegratorKind::stabilised: {
       StabilisedControl control = scene.stabilised;
       control.largest_displacement *= coarsening;
-      return std::make_unique<Stabilised>(model, state, control);
+      control.brownian_displacement *= coarsening;
+      return std::make_unique<Stabilised>(model, state, control, scene.seed);
     }
     case IntegratorKind::implicit:
       break;

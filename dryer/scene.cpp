@@ -13,6 +13,7 @@
 #include "dryer/inertial.hpp"
 #include "dryer/process_inputs.hpp"
 #include "dryer/softening.hpp"
+#include "dryer/thermal_rupture.hpp"
 
 namespace crumble::dryer {
 
@@ -29,17 +30,28 @@ std::vector<double> frames(const Scene& scene) {
   return fraction;
 }
 
-// Decided here, once. Overdamped at D = 0: stabilised steps wherever they know the contact law.
-IntegratorKind integrator_kind(const Scene& scene, const DryingModel& model) {
+// Decided here, once. Overdamped: stabilised steps wherever they know the contact law and no bond breaks thermally.
+IntegratorKind integrator_kind(const Scene& scene, const DryingScene& s) {
+  const DryingModel& model = s.model;
   const std::string method = scene.choice("integrator.method");
   const bool noise = model.thermal_energy > 0, jkr = model.contact.normal == NormalLaw::jkr;
   if (method == "inertial") return IntegratorKind::inertial;
-  if (method == "overdamped" && noise) {
+  if (method == "two-rate" && !noise)
+    throw scene.error("integrator.method", "is for particle.brownian_motion; set \"overdamped\"");
+  if (noise && method != "implicit") {
     if (!jkr)
       throw scene.error("contact.law",
                         "with particle.brownian_motion the overdamped integrator knows jkr only; set "
                         "integrator.method = \"inertial\"");
-    return IntegratorKind::brownian;
+    // The one of the two that knows them.
+    if (method != "stabilised" && scene.is_set("surface_forces.hamaker")) return IntegratorKind::brownian;
+    const ThermalRupture rupture = thermal_rupture(s);
+    if (method == "stabilised" && !rupture.never())
+      throw scene.error("integrator.method",
+                        fmt::format("does not know bonds that thermal motion breaks, and they are worth {:.3g} kT; set "
+                                    "\"overdamped\"",
+                                    rupture.bond));
+    return method == "two-rate" || !rupture.never() ? IntegratorKind::brownian : IntegratorKind::stabilised;
   }
   if (noise) throw scene.error("integrator.method", "knows no Brownian motion; set \"overdamped\" or \"inertial\"");
   if (method == "stabilised" && !jkr)
@@ -49,7 +61,7 @@ IntegratorKind integrator_kind(const Scene& scene, const DryingModel& model) {
 
 // What surface forces ask of the other keys.
 void take_surface_forces(const Scene& scene, DryingScene& s) {
-  // Of a droplet in a gas that at its start: the forces go with kT, which moves by a tenth at most.
+  // Of a droplet in a gas that at its start.
   s.model.surface_forces =
       surface_forces_in(scene, s.liquid.empty() ? scene.real("fluid.temperature") : s.liquid.front().temperature);
   if (!s.model.surface_forces) return;
@@ -110,11 +122,11 @@ DryingScene drying_scene(const Scene& scene, const Machine& machine) {
       c.normal == NormalLaw::jkr && !wrong.empty())
     throw scene.error("material.youngs_modulus", wrong);
   s.seed = static_cast<std::uint64_t>(scene.integer("run.seed"));
-  s.integrator = integrator_kind(scene, s.model);
   s.implicit = {scene.real("integrator.largest_displacement"), scene.real("integrator.contact_precision")};
-  s.stabilised.largest_displacement = scene.real("integrator.largest_displacement");
+  s.stabilised = {scene.real("integrator.largest_displacement"), scene.real("integrator.brownian_displacement")};
   s.brownian.contact_step = scene.real("integrator.contact_step");
   s.softening = scene.real("integrator.softening");
+  s.integrator = integrator_kind(scene, s);
   s.frames = frames(scene);
   s.checkpoint_interval = scene.real("output.checkpoint_interval");
   if (scene.is_set("stands_for.number")) s.stands_for = scene.real("stands_for.number");

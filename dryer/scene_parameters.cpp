@@ -144,31 +144,36 @@ const ParameterTable& drying_parameters() {
             .by_default(1)}},
       {"integrator",
        "How the equations are solved.",
-       {P::choice("method", {"overdamped", "implicit", "stabilised", "inertial"},
-                  "overdamped: no inertia; two fixed rates with Brownian motion; at D = 0 stabilised, or implicit "
-                  "where the contact "
-                  "law is not jkr; both can be asked for by name; inertial: the paper's scheme, fixed step, slow")
+       {P::choice("method", {"overdamped", "stabilised", "implicit", "two-rate", "inertial"},
+                  "overdamped: no inertia; stabilised, or implicit where the contact law is not jkr, or two-rate where "
+                  "Brownian motion breaks bonds; these can be asked for by name; inertial: the paper's scheme, fixed "
+                  "step, slow")
             .by_default("overdamped"),
         P::real("largest_displacement", "", "implicit and stabilised: largest motion of a particle in one step, in a")
             .above(0)
             .at_most(0.2)
             .by_default(usual_displacement),
+        P::real("brownian_displacement", "",
+                "stabilised with Brownian motion: root mean square displacement of a free particle while its random "
+                "force stands, in a")
+            .above(0)
+            .at_most(0.2)
+            .by_default(StabilisedControl{}.brownian_displacement),
         P::real("contact_precision", "",
                 "implicit: overlap beyond which a pair is bonded within the step in which it touches, in a")
             .above(0)
             .at_most(1e-2)
             .by_default(ImplicitControl{}.contact_precision),
         P::real("contact_step", "",
-                "overdamped with Brownian motion: the short step of particles in touch, in the relaxation time "
+                "two-rate: the short step of particles in touch, in the relaxation time "
                 "6 pi mu a/k_n of a contact")
             .above(0)
             .at_most(0.15)
             .by_default(BrownianControl{}.contact_step),
-        P::real(
-            "softening", "",
-            "overdamped with Brownian motion: width of the bond in the packed liquid core in that of the material's; "
-            "its strength is such that pairs stay together as much. What dries has the material's. 1: full "
-            "stiffness throughout")
+        P::real("softening", "",
+                "two-rate: width of the bond in the packed liquid core in that of the material's; "
+                "its strength is such that pairs stay together as much. What dries has the material's. 1: full "
+                "stiffness throughout")
             .at_least(1)
             .at_most(4)
             .by_default(1.5),

@@ -48,10 +48,14 @@ std::uint64_t morton(const Vector3& x, double width) {
 
 }  // namespace
 
-Stabilised::Stabilised(const DryingModel& model, Agglomerate& state, const StabilisedControl& control)
-    : Integrator(model, state, 0), control_(control), place_(state.particles.size(), -1) {
+Stabilised::Stabilised(const DryingModel& model, Agglomerate& state, const StabilisedControl& control,
+                       std::uint64_t seed)
+    : Integrator(model, state, 0),
+      control_(control),
+      near_(control.near(model.thermal_energy > 0)),
+      place_(state.particles.size(), -1) {
   if (model.contact.normal != NormalLaw::jkr) throw std::invalid_argument("stabilised steps know the JKR law only");
-  if (model.thermal_energy > 0) throw std::invalid_argument("stabilised steps know no Brownian motion");
+  if (model.thermal_energy > 0) noise_.emplace(model, state.particles.radius, seed, control.brownian_displacement);
   state.state.velocity.resize(state.particles.size(), Vector3::Zero());
 }
 
@@ -65,11 +69,19 @@ void Stabilised::step(double latest_time) {
   Frame& f = state_.state;
   const double begin = f.time;
   const double steps = front_.may_slow_down() ? steps_behind_crust : steps_in_one;
-  const double end = std::min(begin + time_of_travel(steps * control_.largest_displacement), latest_time);
+  double end = std::min(begin + time_of_travel(steps * control_.largest_displacement), latest_time);
+  if (noise_) {
+    noise_->advance_to(begin);
+    // As many as the way allows to pairs that are far enough apart not to be listed.
+    const double intervals = std::pow(near_ / (6 * noise_->displacement()), 2);
+    end = std::min(end, noise_->end(static_cast<std::uint64_t>(intervals)));
+  }
   choose(front_.radius(end));
   gather();
   if (next_dt_ == 0) next_dt_ = end - begin;
   if (chosen_.empty()) {
+    if (noise_) end = std::min(end, noise_->end());
+    advance_free(end - begin);
     f.time = end;
     ++f.step;  // frames need numbers that grow
     ++statistics_.steps;
@@ -77,9 +89,12 @@ void Stabilised::step(double latest_time) {
   try {
     meet(open_pairs_, 0);
     while (f.time < end) {
-      stabilised_step(end);
+      const double before = f.time;
+      load_thermally();
+      stabilised_step(noise_ ? std::min(end, noise_->end()) : end);
+      advance_free(f.time - before);
       // Within the next more pairs may come near.
-      if (farthest() + control_.largest_displacement > 0.5 * control_.near()) break;
+      if (farthest() + control_.largest_displacement > 0.5 * near_) break;
     }
     bonds_.advance(motion_);
     lose();
@@ -91,15 +106,56 @@ void Stabilised::step(double latest_time) {
   front_.follow(state_);
 }
 
+bool Stabilised::is_dry(std::int32_t p, double R) const {
+  return dryer::is_dry(state_.particles.radius[p], state_.state.position[p].norm(), R);
+}
+
+// With noise: whom a bond or the surface may hold up until it is at R. Those near another come on top.
+std::vector<char> Stabilised::who_moves(double R) const {
+  const Frame& f = state_.state;
+  std::vector<char> moves(place_.size(), 0);
+  const double now = front_.radius(f.time), reach = 0.5 * near_ * smallest_radius();
+  for (std::size_t p = 0; p < place_.size(); ++p) {
+    const auto particle = static_cast<std::int32_t>(p);
+    moves[p] = f.position[p].norm() + state_.particles.radius[p] + reach > R && !is_dry(particle, now);
+  }
+  for (const Contact& bond : f.contacts) moves[bond.i] = moves[bond.j] = 1;
+  return moves;
+}
+
+// Goes on to the interval of the noise that it is time for.
+void Stabilised::load_thermally() {
+  if (!noise_) return;
+  noise_->advance_to(state_.state.time);
+  for (std::size_t m = 0; m < chosen_.size(); ++m)
+    if (noisy_[m]) thermal_[m] = noise_->load(static_cast<std::size_t>(chosen_[m]));
+}
+
+// Those that nothing holds up, in this interval of the noise.
+void Stabilised::advance_free(double passed) {
+  for (std::size_t k = 0; k < free_.size(); ++k) free_way_[k] += passed * noise_->velocity(free_[k]);
+}
+
+// How far thermal loads may move a particle in so long a time, in the smallest radius: 5.2 standard deviations of a
+// component.
+double Stabilised::thermal_way(double time) const {
+  return noise_ ? 3 * noise_->displacement() * time / noise_->interval() : 0;
+}
+
 // Who moves and who may be met: the list depends on the state alone.
 void Stabilised::choose(double R_end) {
   Frame& f = state_.state;
   activity_.front_at(R_end);
   const double a = smallest_radius();
   std::vector<Pair> pairs;
-  NeighbourSearch().find(f.position, state_.particles.radius, control_.near() * a, pairs);
+  NeighbourSearch().find(f.position, state_.particles.radius, near_ * a, pairs);
   erase_bonded(pairs, f.contacts);
-  std::erase_if(pairs, [&](const Pair& p) { return !activity_.is_active(p.i) && !activity_.is_active(p.j); });
+  const double R = front_.radius(f.time);
+  const std::vector<char> moves = noise_ ? who_moves(R_end) : std::vector<char>();
+  const auto rests = [&](std::int32_t p) {
+    return noise_ ? !moves[p] && is_dry(p, R) && !model_.dry.everything_acts : !activity_.is_active(p);
+  };
+  std::erase_if(pairs, [&](const Pair& p) { return rests(p.i) && rests(p.j); });
   std::vector<std::pair<std::uint64_t, std::int32_t>> order;
   const auto choose_one = [&](std::int32_t p) {
     if (place_[p] >= 0) return;
@@ -107,7 +163,12 @@ void Stabilised::choose(double R_end) {
     order.emplace_back(morton(f.position[p], 2 * a), p);
   };
   std::fill(place_.begin(), place_.end(), -1);
-  for (const std::int32_t p : activity_.active()) choose_one(p);
+  if (noise_) {
+    for (std::size_t p = 0; p < moves.size(); ++p)
+      if (moves[p]) choose_one(static_cast<std::int32_t>(p));
+  } else {
+    for (const std::int32_t p : activity_.active()) choose_one(p);
+  }
   for (const Pair& pair : pairs) choose_one(pair.i), choose_one(pair.j);
   std::sort(order.begin(), order.end());
   chosen_.clear();
@@ -116,6 +177,9 @@ void Stabilised::choose(double R_end) {
     chosen_.push_back(p);
   }
   for (const Pair& pair : pairs) open_pairs_.push_back({place_[pair.i], place_[pair.j]});
+  for (std::size_t p = 0; noise_ && p < place_.size(); ++p)
+    if (place_[p] < 0 && (model_.dry.everything_acts || !is_dry(static_cast<std::int32_t>(p), R))) free_.push_back(p);
+  free_way_.assign(free_.size(), Vector3::Zero());
 }
 
 // Bonds are in the frame or in the block, not in both: each is a fourth of all memory.
@@ -140,12 +204,18 @@ void Stabilised::gather() {
   motion_.resize(count);
   mobility_.resize(count);
   radius_.assign(padded(count), 0);
+  thermal_.assign(noise_ ? count : 0, {});
+  noisy_.assign(count, 0);
+  const double R = front_.radius(f.time);
   for (std::size_t m = 0; m < count; ++m) {
     const double a = state_.particles.radius[chosen_[m]];
     motion_.position[m] = position(f.position[chosen_[m]]);
-    mobility_.translation[m] = static_cast<float>(1 / drag_coefficient(model_.viscosity, a));
-    mobility_.rotation[m] = static_cast<float>(1 / rotational_drag_coefficient(model_.viscosity, a));
+    const bool dry = noise_ && is_dry(chosen_[m], R);
+    const double drag = dry ? model_.dry.drag_factor : 1;
+    mobility_.translation[m] = static_cast<float>(1 / (drag * drag_coefficient(model_.viscosity, a)));
+    mobility_.rotation[m] = static_cast<float>(1 / (drag * rotational_drag_coefficient(model_.viscosity, a)));
     radius_[m] = static_cast<float>(a);
+    noisy_[m] = noise_ && (!dry || model_.dry.everything_acts);
   }
 }
 
@@ -161,14 +231,18 @@ double Stabilised::rate() const {
 double Stabilised::rate_of_a_bond() const {
   const double a = smallest_radius();
   const BondLaw law(model_.contact, model_.material, a, a);
-  return std::max(2 * law.normal_stiffness(), 3.5 * law.k_s) / drag_coefficient(model_.viscosity, a);
+  const double least = noise_ ? std::min(1.0, model_.dry.drag_factor) : 1;
+  return std::max(2 * law.normal_stiffness(), 3.5 * law.k_s) / (least * drag_coefficient(model_.viscosity, a));
 }
 
 // What a step is made stable for, 1/s.
 double Stabilised::limit_of_rate() {
   const double one = rate_of_a_bond(), R = front_.radius(state_.state.time);
   const double zeta = drag_coefficient(model_.viscosity, smallest_radius());
-  const double surface = R > 0 ? surface_rate(model_.droplet, smallest_radius(), zeta, R) : 0;
+  double surface = 0;
+  if (R > 0)
+    surface = noise_ ? ThermalLoads::surface_rate(model_, smallest_radius(), noise_->interval(), R)
+                     : surface_rate(model_.droplet, smallest_radius(), zeta, R);
   is_stable(known_rate_ + 0.5 * one);
   return std::max((1 + room) * rate() + one, 4 * surface);
 }
@@ -189,11 +263,11 @@ bool Stabilised::nearer(const Pair& places, float gap) const {
 }
 
 // Sorts out of the open pairs those that can meet until the next look.
-void Stabilised::part() {
+void Stabilised::part(double time) {
   open_pairs_.insert(open_pairs_.end(), closest_.begin(), closest_.end());
   closest_.clear();
   closer_.resize(open_pairs_.size());
-  const auto gap = static_cast<float>(control_.largest_displacement * smallest_radius());
+  const auto gap = static_cast<float>((control_.largest_displacement + 2 * thermal_way(time)) * smallest_radius());
 #pragma omp parallel for schedule(static) if (open_pairs_.size() > many)
   for (std::size_t q = 0; q < open_pairs_.size(); ++q) closer_[q] = nearer(open_pairs_[q], gap);
   std::size_t left = 0;
@@ -214,7 +288,9 @@ void Stabilised::stabilised_step(double latest_time) {
   const int stages = Chebyshev::stages(dt, limit);
   const Chebyshev method(stages);
   before_ = motion_.position;
-  part();
+  // The last stages are the longest, 2/stages of the step.
+  const double until_next_look = dt * std::min(1.0, 2.0 * look / stages);
+  part(until_next_look);
   int done = 0;
   bool within_limit = true;
   while (done < stages && within_limit) {
@@ -225,9 +301,9 @@ void Stabilised::stabilised_step(double latest_time) {
     const bool known = meet(closest_, limit);
     if (done == stages) break;
     if (done % look == 0) {
-      part();
+      part(until_next_look);
       // Farther, and others than those that are known may meet.
-      within_limit = farthest() < 0.5 * control_.near();
+      within_limit = farthest() < 0.5 * near_;
     }
     if (!known || done % look == 0) within_limit = is_stable(limit) && within_limit;
   }
@@ -242,8 +318,11 @@ void Stabilised::stabilised_step(double latest_time) {
   statistics_.particle_steps += done * static_cast<std::int64_t>(chosen_.size());
   f.step += done;
   measure([&](std::size_t m) { return before_[m]; });
+  for (double& way : moves_) way = std::max(way - thermal_way(passed), 0.0);
   const double moved = largest_but_snaps(moves_) / control_.largest_displacement;
-  next_dt_ = dt * std::clamp(0.9 / std::max(moved * (passed > 0 ? dt / passed : 1), 1e-3), 0.5, 2.0);
+  const double factor = std::clamp(0.9 / std::max(moved * (passed > 0 ? dt / passed : 1), 1e-3), 0.5, 2.0);
+  // What an interval of the noise has left over is no reason for short steps.
+  next_dt_ = noise_ && factor > 1 ? std::max(next_dt_, factor * dt) : factor * dt;
 }
 
 void Stabilised::push(const Chebyshev::Stage& stage, double dt, double R) {
@@ -267,7 +346,8 @@ void Stabilised::push_some(std::size_t first, const Chebyshev::Stage& stage, dou
   const auto memory = static_cast<float>(stage.memory), push = static_cast<float>(stage.push * dt);
   for (std::size_t l = 0; l < count; ++l) {
     const auto x = load(position[l]);
-    const Six loads = bonds_.load_on(first + l) + six(pull[l] * in_single(x), 0);
+    Six loads = bonds_.load_on(first + l) + six(pull[l] * in_single(x), 0);
+    if (noise_) loads += load(thermal_[first + l]);
     const Six way = memory * load(moved[l]) + push * mobility_.of(first + l) * loads;
     store(moved[l], way);
     store(position[l], x + in_double(translation(way)));
@@ -340,7 +420,9 @@ void Stabilised::measure(From from) {
 // The largest displacement since the beginning of the step().
 double Stabilised::farthest() {
   measure([&](std::size_t m) { return position(state_.state.position[chosen_[m]]); });
-  return moves_.empty() ? 0 : *std::max_element(moves_.begin(), moves_.end());
+  double most = moves_.empty() ? 0 : *std::max_element(moves_.begin(), moves_.end());
+  for (const Vector3& way : free_way_) most = std::max(most, way.norm() / smallest_radius());
+  return most;
 }
 
 void Stabilised::put_back(double begin) {
@@ -354,7 +436,8 @@ void Stabilised::put_back(double begin) {
     f.velocity[p] = passed > 0 ? Vector3((x - f.position[p]) / passed) : Vector3(Vector3::Zero());
     f.position[p] = x;
   }
-  release(motion_, before_, moves_, mobility_, open_pairs_, closest_, closer_);
+  for (std::size_t k = 0; k < free_.size(); ++k) f.position[free_[k]] += free_way_[k];
+  release(motion_, before_, moves_, mobility_, open_pairs_, closest_, closer_, thermal_, noisy_, free_, free_way_);
   bonds_.forget_loads();
   bonds_.hand_back(chosen_, laws_, f.contacts);
   for (const Contact& bond : f.contacts) activity_.wake(bond.i), activity_.wake(bond.j);
@@ -365,26 +448,6 @@ void Stabilised::put_back(double begin) {
 void Stabilised::fields(SavedFields& f) {
   Integrator::fields(f);
   f("next_step", next_dt_);
-}
-
-Work Stabilised::expected_work(const DryingModel& model, const std::vector<double>& radius,
-                               const StabilisedControl& control, const StepTimes& times) {
-  const double a = radius.back(), zeta = drag_coefficient(model.viscosity, a);
-  const Droplet& droplet = model.droplet;
-  const BondLaw law(model.contact, model.material, a, a);
-  const double bonds = 12 * std::max(law.normal_stiffness(), law.k_s) / zeta;
-  const double fastest = std::max(bonds, 4 * surface_rate(droplet, a, zeta, droplet.initial_radius));
-  const double advance = droplet.initial_radius / a / control.largest_displacement;
-  Work work;
-  work.steps = 2.0 / 3 * std::sqrt(2.5 * fastest * droplet.lifetime * advance);
-  // Evaluations for the front's way go like the root of R; those swept so far are awake, three quarters on average.
-  const double phi = solids_share(droplet, radius);
-  const double swept = work.add_up([&](double fraction) {
-    const double R = 1 - fraction;
-    return 1.5 * std::sqrt(R) * std::min(1.0, 1 - R * R * R + 0.5 * phi / (R * R * R));
-  });
-  work.seconds = 0.75 / std::max(swept, 0.5) * swept * work.steps * static_cast<double>(radius.size()) * times.packed;
-  return work;
 }
 
 }  // namespace crumble::dryer

@@ -1,5 +1,8 @@
-// The default integrator without Brownian motion: no inertia, explicit stabilised steps.
+// The default integrator without Brownian motion, and with it where bonds are too strong for it: no inertia, explicit
+// stabilised steps.
 #pragma once
+
+#include <optional>
 
 #include "common/numerics/neighbours.hpp"
 #include "dryer/bond_block.hpp"
@@ -7,14 +10,19 @@
 #include "dryer/displacement.hpp"
 #include "dryer/integrator.hpp"
 #include "dryer/relaxation_rate.hpp"
+#include "dryer/thermal_loads.hpp"
 #include "dryer/work.hpp"
 
 namespace crumble::dryer {
 
 struct StabilisedControl {
   double largest_displacement = usual_displacement;  // of a particle in one stabilised step, in its radius
+  // With Brownian motion, of a free particle while its thermal load stands, root mean square, in the smallest radius.
+  double brownian_displacement = 0.005;
   // How near pairs must be to be looked at within a step(), in the smallest radius.
-  double near() const { return std::max(0.2, 3 * largest_displacement); }
+  double near(bool noisy) const {
+    return std::max({0.2, 3 * largest_displacement, noisy ? 20 * brownian_displacement : 0});
+  }
 };
 
 // dx/dt = F/zeta and the same for rotations by the method of chebyshev.hpp: as many evaluations a step as the stiffest
@@ -23,12 +31,16 @@ struct StabilisedControl {
 //
 // A step() of the integrator is several stabilised steps with one list of particles and near pairs. Particles that
 // neither the front nor a bond has reached are in it only as obstacles.
+//
+// With Brownian motion each particle has a load more, that of thermal_loads.hpp, and a stabilised step ends with its
+// interval. Particles without bond or near neighbour, and away from the surface, go its whole way at once. What the
+// liquid has left dry has no noise (model.dry).
 class Stabilised : public Integrator {
  public:
   static constexpr std::string_view summary =
       "explicit stabilised steps: as many evaluations as the stiffest contact asks for, no equations";
 
-  Stabilised(const DryingModel& model, Agglomerate& state, const StabilisedControl& control);
+  Stabilised(const DryingModel& model, Agglomerate& state, const StabilisedControl& control, std::uint64_t seed = 0);
 
   // Throws std::domain_error naming the particle if the state is not finite.
   void step(double latest_time) override;
@@ -37,12 +49,18 @@ class Stabilised : public Integrator {
 
   // Evaluations: stages of the Chebyshev method, summed over steps that the front makes each in the time of the largest
   // displacement. The fastest rate is some 12 k/zeta, k the stiffest spring of a bond, or that at which a strong
-  // surface catches a particle.
+  // surface catches a particle. With Brownian motion there is a step in each interval of the thermal loads at least,
+  // and only those take part that have met another or lie at the front.
   static Work expected_work(const DryingModel& model, const std::vector<double>& radius,
                             const StabilisedControl& control, const StepTimes& times);
 
  private:
   void choose(double R_end);
+  bool is_dry(std::int32_t particle, double R) const;
+  std::vector<char> who_moves(double R_end) const;
+  void load_thermally();
+  void advance_free(double passed);
+  double thermal_way(double time) const;
   void gather();
   void put_back(double begin);
   void stabilised_step(double latest_time);
@@ -51,7 +69,7 @@ class Stabilised : public Integrator {
   double rate() const;
   double rate_of_a_bond() const;
   bool nearer(const Pair& places, float gap) const;
-  void part();
+  void part(double time);
   void push(const Chebyshev::Stage& stage, double dt, double R);
   void push_some(std::size_t first, const Chebyshev::Stage& stage, double dt, double R);
   bool meet(std::vector<Pair>& pairs, double limit);
@@ -62,7 +80,13 @@ class Stabilised : public Integrator {
   double time_of_travel(double radii) const;
 
   StabilisedControl control_;
+  double near_;         // of control_, in the smallest radius
   double next_dt_ = 0;  // s
+  std::optional<ThermalLoads> noise_;
+  std::vector<SixVector> thermal_;  // of the places; empty without noise
+  std::vector<char> noisy_;         // whether the place has noise
+  std::vector<std::size_t> free_;   // particles without place that noise moves
+  std::vector<Vector3> free_way_;   // of each since the beginning of the step(), m
   std::vector<std::int32_t> chosen_, place_;
   Mobility mobility_;
   double known_rate_ = 0;  // bound for the bonds as they were when their stiffness was last remembered, 1/s

@@ -40,4 +40,11 @@ struct Work {
 // Share of the droplet at the start that the solids are. radius: m, of each particle.
 double solids_share(const Droplet& droplet, const std::vector<double>& radius);
 
+// Share of the particles that have a neighbour within reach or a bond, where the solids take up `packing`: one minus
+// the chance of none (Poisson) in the shell in which the pair would be near, and in what a bond holds.
+double share_near(double packing, double a, double margin, double stickiness);
+
+// Bonds that thermal motion does not break: half of the particles have met after t = 3 mu/(4 kT n) (Smoluchowski).
+double share_clustered(const DryingModel& model, double number, double time);
+
 }  // namespace crumble::dryer

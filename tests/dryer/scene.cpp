@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "dryer/inertial.hpp"
 #include "dryer/regime.hpp"
+#include "dryer/thermal_rupture.hpp"
 
 using namespace crumble;
 using namespace crumble::dryer;
@@ -118,6 +121,26 @@ TEST(DryingScene, defaults_are_table_1_and_the_paper_s_equations) {
   EXPECT_EQ(s.model.droplet.surface_tension, 1.75e-4);
   EXPECT_EQ(s.model.contact.rolling_limit_factor, 1);
   EXPECT_TRUE(s.is(IntegratorKind::stabilised));
+}
+
+TEST(DryingScene, steps_are_long_where_no_bond_breaks_thermally_and_it_says_so) {
+  const auto scene = [](const std::string& radius, const std::string& droplet, const std::string& integrator) {
+    return drying_scene(Scene::parse("[particle]\nradius = " + radius +
+                                         "\nnumber = 20\nbrownian_motion = true\n[droplet]\n" + "radius = " + droplet +
+                                         "\npeclet = 10\n" + integrator,
+                                     "drying.toml", drying_parameters()));
+  };
+  const DryingScene strong = scene("100e-9", "1e-6", ""), weak = scene("10e-9", "1e-7", "");
+  EXPECT_TRUE(strong.is(IntegratorKind::stabilised));
+  EXPECT_TRUE(weak.is(IntegratorKind::brownian));
+  EXPECT_TRUE(scene("100e-9", "1e-6", "[integrator]\nmethod = \"two-rate\"\n").is(IntegratorKind::brownian));
+  EXPECT_THROW(scene("10e-9", "1e-7", "[integrator]\nmethod = \"stabilised\"\n"), InputError);
+  const ThermalRupture rupture = thermal_rupture(strong);
+  // (100/10)^(4/3) times the 4.2 kT of 10 nm.
+  EXPECT_NEAR(rupture.bond / thermal_rupture(weak).bond, std::pow(10, 4.0 / 3), 1e-6);
+  EXPECT_NEAR(thermal_rupture(weak).bond, 4.2, 0.05);
+  const auto line = describe(strong).back();
+  EXPECT_NE(line.find("a bond is worth 90.6 kT"), std::string::npos) << line;
 }
 
 TEST(DryingScene, frames_at_given_theta_come_in_between_the_even_ones) {

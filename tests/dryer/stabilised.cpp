@@ -84,9 +84,13 @@ TEST(Stabilised, dries_the_same_granule_as_the_implicit_integrator) {
 }
 
 // A cube of bonded particles in a droplet that cuts its corners: enough bonds and particles for several threads.
-TEST(Stabilised, the_same_bits_on_any_number_of_threads) {
+// Without Brownian motion and with it.
+class StabilisedOnThreads : public ::testing::TestWithParam<double> {};
+
+TEST_P(StabilisedOnThreads, the_same_bits_on_any_number) {
   DryingModel model = hollow();
   model.droplet = {125e-9, 1e-5, 1.75e-4};
+  model.thermal_energy = GetParam();
   const BondLaw law(model.contact, model.material, 10e-9, 10e-9);
   constexpr int side = 13;
   const double pitch = 20e-9 + law.equilibrium_gap();
@@ -122,6 +126,8 @@ TEST(Stabilised, the_same_bits_on_any_number_of_threads) {
       EXPECT_EQ(other.state.contacts[c].sliding, one.state.contacts[c].sliding) << threads;
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(ThermalEnergy, StabilisedOnThreads, ::testing::Values(0, 4e-21));
 
 // Bonds so weak that the front tears many: what a step has lost must not come back at the places of others.
 TEST(Stabilised, bonds_are_a_sorted_list_of_pairs_after_every_step_however_many_are_lost) {

@@ -326,9 +326,9 @@ TEST(RapidCoagulation, by_first_passage_has_the_half_time_of_its_attraction) {
   EXPECT_LT(enhanced, 1);
 }
 
-// A pair of weak attraction, without charge, in a closed sphere that does not shrink: how often it is nearer than h_j, by the Boltzmann
-// distribution of capillary and surface energy together. Of centres at r and q from the middle the distance s has the
-// density s/(2 r q) from |r - q| to r + q.
+// A pair of weak attraction, without charge, in a closed sphere that does not shrink: how often it is nearer than h_j,
+// by the Boltzmann distribution of capillary and surface energy together. Of centres at r and q from the middle the
+// distance s has the density s/(2 r q) from |r - q| to r + q.
 TEST(SurfaceForces, a_pair_in_a_closed_sphere_has_the_Boltzmann_distribution) {
   const double R = 22e-9;
   DryingModel model = in_bulk(forces(2.2e-21, 0, 100));
