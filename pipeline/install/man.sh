@@ -2,6 +2,7 @@
 # man.sh PAGE.1.gz COMMAND [SUBCOMMAND]: writes the manual page, from what the program says about itself: --help, --version and, where it takes
 # scenes, --print-defaults.
 set -euo pipefail
+[[ ${1:-} != -h && ${1:-} != --help ]] || { sed -n '2,/^[^#]/s/^# //p' "$0"; exit 0; }
 page=$1
 shift
 command=("$@")
