@@ -110,26 +110,5 @@ TEST(SurfaceForces, BothIntegratorsBreakAChargedTrimerAtTheSameStress) {
   EXPECT_NEAR(critical_stress(fast, ramp) / critical_stress(slow, ramp), 1, 5e-3);
 }
 
-// Two particles at rest a nanometre apart come together by attraction alone, in both integrators at the same time.
-TEST(SurfaceForces, AttractionBringsTwoParticlesTogether) {
-  Agglomerate g = cluster({{0, 0, 0}, {2.2, 0, 0}});
-  g.state.contacts.clear();
-  g.state.position = {Vector3::Zero(), Vector3(2 * a + 1e-9, 0, 0)};
-  BreakupModel model = elongation(Rung::fts);
-  model.gradient.setZero();
-  const Protocol rest({{0, 0}});
-  const auto time = [&](Integrator& run) {
-    for (int k = 0; k < 200000 && run.frame().contacts.empty(); ++k) run.step(1e9);
-    return run.frame().contacts.empty() ? -1 : run.frame().time;
-  };
-  model.surface_forces = forces(9.85e-21, 0, 10);
-  model.weak_stress = 1e5;  // the implicit one resolves no motion that is faster than that of its weakest flow
-  Implicit fast(model, rest, g.particles.radius, g.state, 1e-3);  // local errors of 0.01 nm
-  ExplicitEuler slow(model, rest, g.particles.radius, g.state, 0);
-  const double made = time(slow);
-  EXPECT_GT(made, 0);
-  EXPECT_NEAR(time(fast) / made, 1, 0.05);
-}
-
 }  // namespace
 }  // namespace crumble::breaker
