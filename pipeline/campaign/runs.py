@@ -53,7 +53,7 @@ class Runs:
         except (OSError, KeyError, tomllib.TOMLDecodeError):
             return False
         return scene_text.canonical(scene) == scene_text.canonical(run.scene) and (
-            run.parent is None or parent == sha256(self.path(run.parent)))
+            run.parent is None or (self.path(run.parent).is_file() and parent == sha256(self.path(run.parent))))
 
     def command(self, run, *more):
         parent = [str(self.path(run.parent))] if run.parent else []

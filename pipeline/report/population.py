@@ -53,12 +53,16 @@ def row(name, rows, column, words, place):
 
 
 def head(path):
-    """Commit and day of the granules, from the report and the file of the first."""
+    """Commits and days of all granules, from their files."""
     import h5py
-    first = read(path)[0]
-    with h5py.File(path.parent / "dry" / f"{first['id']}.h5") as file:
-        made = file["parameters/provenance"].attrs
-        return str(made["git"])[:7] + (" with changes" if made["dirty"] else ""), str(made["created"])[:10]
+    commits, days = {}, {}
+    for one in read(path):
+        for place in (f"dry/{one['id']}.h5", f"stress/{one['stress_id']}.h5"):
+            if (path.parent / place).is_file():
+                with h5py.File(path.parent / place) as file:
+                    made = file["parameters/provenance"].attrs
+                    commits[str(made["git"])[:7] + (" with changes" if made["dirty"] else "")] = days[str(made["created"])[:10]] = True
+    return ", ".join(commits), ", ".join(days)
 
 
 def show(groups):

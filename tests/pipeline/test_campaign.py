@@ -195,6 +195,14 @@ class Running(InAFolder):
         self.run_it(PLAIN)
         self.assertEqual([call.split()[0] for call in self.calls()], ["dryer"])
 
+    def test_a_granule_whose_file_is_gone_is_made_again(self):
+        text = PLAIN + "[stress]\nscene = \"stress.toml\"\n"
+        self.run_it(text)
+        self.calls()
+        next((self.folder / "out/dry").glob("*.h5")).unlink()
+        self.assertEqual(self.run_it(text)[0], 0)
+        self.assertEqual([call.split()[0] for call in self.calls()], ["dryer"])  # the same bytes: the stress file is that of them
+
     def test_the_table_has_units_hashes_and_errors(self):
         self.run_it(self.THREE)
         row = self.table()[0]
