@@ -87,7 +87,8 @@ std::string integrator_reason(const DryingScene& s) {
   const ThermalRupture rupture = thermal_rupture(s);
   const std::string bond = fmt::format("; a bond is worth {:.3g} kT, ", rupture.bond);
   if (!rupture.never()) return bond + "thermal motion breaks it";
-  const std::string none = bond + fmt::format("thermal motion breaks {:.1g} of all in the whole drying", rupture.most);
+  const std::string none =
+      bond + fmt::format("thermal motion breaks at most {:.0e} of them in the whole drying", rupture.most);
   if (!s.is(IntegratorKind::stabilised)) return none;
   return none + fmt::format(": steps follow diffusion ({:.2g} s for {:g} a) and the front, not how stiff contacts are",
                             ThermalLoads::interval(s.model, s.smallest_radius(), s.stabilised.brownian_displacement),

@@ -73,8 +73,8 @@ void Stabilised::step(double latest_time) {
   if (noise_) {
     noise_->advance_to(begin);
     // As many as the way allows to pairs that are far enough apart not to be listed.
-    const double intervals = std::pow(near_ / (6 * noise_->displacement()), 2);
-    end = std::min(end, noise_->end(static_cast<std::uint64_t>(intervals)));
+    const double root = near_ / (6 * noise_->displacement());
+    end = std::min(end, noise_->end(static_cast<std::uint64_t>(root * root)));
   }
   choose(front_.radius(end));
   gather();
@@ -123,7 +123,6 @@ std::vector<char> Stabilised::who_moves(double R) const {
   return moves;
 }
 
-// Goes on to the interval of the noise that it is time for.
 void Stabilised::load_thermally() {
   if (!noise_) return;
   noise_->advance_to(state_.state.time);
@@ -136,8 +135,7 @@ void Stabilised::advance_free(double passed) {
   for (std::size_t k = 0; k < free_.size(); ++k) free_way_[k] += passed * noise_->velocity(free_[k]);
 }
 
-// How far thermal loads may move a particle in so long a time, in the smallest radius: 5.2 standard deviations of a
-// component.
+// How far noise moves a particle in so long a time, in the smallest radius: 5.2 standard deviations of a component.
 double Stabilised::thermal_way(double time) const {
   return noise_ ? 3 * noise_->displacement() * time / noise_->interval() : 0;
 }
@@ -163,12 +161,8 @@ void Stabilised::choose(double R_end) {
     order.emplace_back(morton(f.position[p], 2 * a), p);
   };
   std::fill(place_.begin(), place_.end(), -1);
-  if (noise_) {
-    for (std::size_t p = 0; p < moves.size(); ++p)
-      if (moves[p]) choose_one(static_cast<std::int32_t>(p));
-  } else {
-    for (const std::int32_t p : activity_.active()) choose_one(p);
-  }
+  for (const std::int32_t p : activity_.active())
+    if (!noise_ || moves[p]) choose_one(p);
   for (const Pair& pair : pairs) choose_one(pair.i), choose_one(pair.j);
   std::sort(order.begin(), order.end());
   chosen_.clear();
