@@ -190,7 +190,7 @@ void cut_off(const std::string& folder) {
   std::vector<Numbers> exact;
   omp_set_num_threads(omp_get_num_procs());
   for (const auto& [name, highest] : dried) {
-    heads.insert(heads.end(), {fmt::format("{}, L = {}", name, highest), "rms", "worst"});
+    heads.insert(heads.end(), {fmt::format("{} L = {}", name, highest), "rms", "worst"});
     clusters.push_back(dried_cluster(name));
     exact.push_back(numbers(clusters.back(), of_order(highest)));
   }
