@@ -159,7 +159,7 @@ RealGranule real_granule(const DryingScene& scene, const Morphology& m) {
   const bool diffuses = scene.model.thermal_energy > 0;
   auto d_c = (diffuses ? compact_d_c : hollow_d_c).factors(N, real.number);
   // However far it is extrapolated: no denser than equal spheres pack at random (0.64; Scott & Kilgour 1969).
-  for (double& factor : d_c) factor = std::max(factor, std::cbrt((1 - m.porosity) / 0.64));
+  d_c[0] = std::max(d_c[0], std::min(1.0, std::cbrt((1 - m.porosity) / 0.64)));
   const auto coordination = (diffuses ? compact_coordination : hollow_coordination).factors(N, real.number);
   const double size = std::cbrt(real.number / N);
   for (const std::size_t k : {0, 1}) {

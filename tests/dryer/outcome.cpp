@@ -104,6 +104,20 @@ TEST(DryingOutcome, a_droplet_that_stands_for_itself_says_nothing_of_others) {
 }
 
 // dryer/README.md, measured: 1000, 10,000 and 100,000 particles of 150 nm; d_c in um and coordination.
+TEST(DryingOutcome, a_real_granule_is_no_denser_than_spheres_pack_at_random) {
+  DryingScene scene;
+  scene.radius.assign(60, 1e-8);
+  scene.model.thermal_energy = 4e-21;
+  scene.stands_for = 4.69e8;
+  Morphology m;
+  m.extent = {6.4e-8, 0};
+  m.porosity = 0.77;
+  EXPECT_NEAR(real_granule(scene, m).porosity[0], 0.36, 1e-12);
+  EXPECT_NEAR(real_granule(scene, m).porosity[1], 0.77, 1e-12);
+  m.porosity = 0.3;  // denser already: as it is
+  EXPECT_NEAR(real_granule(scene, m).porosity[0], 0.3, 1e-12);
+}
+
 TEST(DryingOutcome, what_is_said_of_large_granules_holds_for_those_that_were_dried) {
   const struct {
     double number, d_c, coordination;
@@ -116,6 +130,7 @@ TEST(DryingOutcome, what_is_said_of_large_granules_holds_for_those_that_were_dri
       Morphology m;
       m.extent = {0.5e-6 * dried[from].d_c, 0};
       m.coordination = dried[from].coordination;
+      m.porosity = 0.83;
       const RealGranule real = real_granule(scene, m);
       EXPECT_GE(1e-6 * dried[to].d_c, 0.99 * real.d_c[0]);  // one granule each: seeds scatter by a hundredth
       EXPECT_LE(1e-6 * dried[to].d_c, 1.01 * real.d_c[1]);
