@@ -68,10 +68,11 @@ void take_surface_forces(const Scene& scene, DryingScene& s) {
   const SurfaceForces& forces = *s.model.surface_forces;
   check_surface_forces(scene, forces, s.model.material, s.smallest_radius(), s.largest_radius());
   if (!s.is(IntegratorKind::brownian) && !s.is(IntegratorKind::inertial))
-    throw scene.error("integrator.method",
-                      fmt::format("knows no surface forces (surface_forces.hamaker, {}) without Brownian motion; set "
-                                  "particle.brownian_motion = true or integrator.method = \"inertial\"",
-                                  scene.where("surface_forces.hamaker")));
+    throw scene.error(
+        "integrator.method",
+        fmt::format("knows no surface forces (surface_forces.hamaker, {}): with particle.brownian_motion = true "
+                    "leave it at \"overdamped\", without set \"inertial\"",
+                    scene.where("surface_forces.hamaker")));
   if (scene.origin("integrator.softening") == Scene::Origin::given && s.softening != 1 &&
       s.is(IntegratorKind::brownian))
     throw scene.error(
