@@ -178,11 +178,16 @@ def render(name, declared, measured):
              f"Written by `make -C pipeline accuracy` from `pipeline/verify/accuracy/{name}.toml`. Only the tables that it is asked for are measured\n"
              f"again, for example with `RUN={full_name(name, declared['table'][0])}`; all others stay with the head under which they were measured. The commit is the\n"
              "last one before the measurement that changed a program or a scene.", declared.get("about", "").strip()]
+    waiting = []
     for table in declared["table"]:
         again = f"make -C pipeline accuracy RUN={full_name(name, table)}"
-        body = measured.get(table["name"]) or f"Not measured since this page is generated: `{again}`" + (f" ({table['cost']})." if "cost" in table else ".")
-        parts += [f"## {table['question']}", table.get("text", "").strip(), BEGIN.format(table["name"]) + "\n" + body + "\n" + END]
+        if body := measured.get(table["name"]):
+            parts += [f"## {table['question']}", table.get("text", "").strip(), BEGIN.format(table["name"]) + "\n" + body + "\n" + END]
+        else:
+            waiting.append(f"- {table['question']} `{again}`" + (f" ({table['cost']})" if "cost" in table else ""))
     parts.append(declared.get("closing", "").strip())
+    if waiting:
+        parts += ["## Not measured with these programs yet", "\n".join(waiting)]
     return "\n\n".join(part for part in parts if part) + "\n"
 
 
