@@ -59,7 +59,7 @@ def main():
         return 1
     import h5py
     seed = scene.get("run", {}).get("seed", 1)
-    strength = 3000 * (-math.log(share("strength", *inputs[1:], seed))) ** 0.2
+    strength = 3000 * (-math.log(share("strength", *(pathlib.Path(name).name for name in inputs[1:]), seed))) ** 0.2
     results, errors, parent = {}, {}, None
     if me.name == "dryer":
         results = {"d_c_nm": 100 + 10 * share("d", seed), "fragments": 1, "coordination": 3.0, "inputs": {"number": scene["particle"]["number"]}}

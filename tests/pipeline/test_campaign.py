@@ -215,7 +215,7 @@ class Running(InAFolder):
             self.assertEqual((self.folder / "out" / name).exists(), name != "critical_stress_flexible.svg", name)  # of two granules there is no curve
 
     def test_failures_and_censored_cases_are_counted_and_what_follows_a_failure_is_left_out(self):
-        code, answer, _ = self.run_it(self.THREE.replace("\"dry.droplet.peclet\" = [1, 10]", "\"dry.particle.number\" = [12, 13]\n\"breakup.protocol.largest_stress\" = [2e2]"))
+        code, answer, _ = self.run_it(self.THREE.replace("\"dry.droplet.peclet\" = [1, 10]", "\"dry.particle.number\" = [12, 13]\n\"breakup.protocol.largest_stress\" = [2e3]"))
         self.assertEqual(code, 1)
         self.assertNotIn("rigidstress 13", answer)
         failed = [row for row in self.table() if row["failed"]]
@@ -224,10 +224,10 @@ class Running(InAFolder):
         known = {(row["dry.particle.number [1]"], row["quantity"]): row for row in self.table("summary.csv")}
         self.assertEqual(known["12", "d_c"]["failed"], "0")
         self.assertEqual(known["12", "critical_stress_flexible"]["censored"], "2")
-        self.assertEqual({row["critical_stress_flexible_above [Pa]"] for row in self.table() if row["dry.particle.number [1]"] == "12"}, {"200", ""})
+        self.assertEqual({row["critical_stress_flexible_above [Pa]"] for row in self.table() if row["dry.particle.number [1]"] == "12"}, {"2000", ""})
         self.assertIn("Failed:", answer)
         self.calls()
-        self.run_it(self.THREE.replace("\"dry.droplet.peclet\" = [1, 10]", "\"dry.particle.number\" = [12, 13]\n\"breakup.protocol.largest_stress\" = [2e2]"))
+        self.run_it(self.THREE.replace("\"dry.droplet.peclet\" = [1, 10]", "\"dry.particle.number\" = [12, 13]\n\"breakup.protocol.largest_stress\" = [2e3]"))
         self.assertEqual(len(self.calls()), 3)  # those that failed are tried again
 
     def test_after_an_interruption_it_goes_on_from_the_checkpoint_and_ends_with_the_same_table(self):
