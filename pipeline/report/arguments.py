@@ -13,13 +13,15 @@ import sys
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "python"))  # the module crumble; installed it is found anyway
 
 
-def parser(doc, writes=None, metavar="FILE", required=True):
-    """writes: what goes to -o; without it the script writes nothing that could have another name. Not required: the terminal."""
+def parser(doc, writes=None, metavar="FILE", required=True, default=None):
+    """writes: what goes to -o; without it the script writes nothing that could have another name. Not required: the terminal,
+    or the default."""
     first, _, rest = doc.strip().partition("\n")
     made = argparse.ArgumentParser(description=first, epilog=rest.strip("\n"), allow_abbrev=False,
                                    formatter_class=argparse.RawDescriptionHelpFormatter)
     if writes:
-        made.add_argument("-o", dest="out", type=pathlib.Path, metavar=metavar, required=required, help=writes)
+        made.add_argument("-o", dest="out", type=pathlib.Path, metavar=metavar, required=required and default is None, default=default,
+                          help=writes if default is None else f"{writes} (default: {os.path.relpath(default)})")
     return made
 
 

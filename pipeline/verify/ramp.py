@@ -47,7 +47,7 @@ def dried(programs, folder):
 
 
 def command_line():
-    parser = arguments.parser(__doc__, "folder of the runs", metavar="FOLDER")
+    parser = arguments.parser(__doc__, "folder of the runs", metavar="FOLDER", default=ROOT / "pipeline/results/verify")
     parser.add_argument("granules", nargs="*", type=arguments.file, metavar="GRANULE.h5", help="granules to load")
     parser.add_argument("--bin", type=pathlib.Path, default=ROOT / "build/release/bin", help="folder of the programs (default: %(default)s)")
     return parser

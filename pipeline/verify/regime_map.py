@@ -17,7 +17,8 @@ import sys
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "report"))
 import arguments  # noqa: E402
 
-BIN = pathlib.Path(__file__).resolve().parents[2] / "build/release/bin"
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+BIN = ROOT / "build/release/bin"
 PECLET = ("inf", "3000", "1000", "300", "100", "30")
 TENSION = (0.25, 1, 4, 20, 100)  # in that of the paper, 1.75e-4 N/m
 SEEDS = {"30": (1,)}  # where a granule takes many seconds; three elsewhere
@@ -55,7 +56,7 @@ def row(peclet, tension, reports):
 
 
 def command_line():
-    parser = arguments.parser(__doc__, "folder of the runs and the table", metavar="FOLDER")
+    parser = arguments.parser(__doc__, "folder of the runs and the table", metavar="FOLDER", default=ROOT / "pipeline/results/verify")
     parser.add_argument("--dryer", type=pathlib.Path, default=BIN / "dryer", help="the program (default: %(default)s)")
     return parser
 

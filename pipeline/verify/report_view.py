@@ -154,7 +154,7 @@ def lattice(path):
 
 
 def command_line():
-    parser = arguments.parser(__doc__, "pages and screenshots", "FOLDER")
+    parser = arguments.parser(__doc__, "pages and screenshots", "FOLDER", default=ROOT / "pipeline/results/verify")
     parser.add_argument("--tool", default=ROOT / "build/release/bin/agglomerate", type=pathlib.Path, metavar="PROGRAM", help="the program agglomerate")
     return parser
 
