@@ -77,7 +77,7 @@ TEST(Flows, SphereTumblesInFourPi) {
 }
 
 // Means over all orientations of x^2 and of |x y|, x and y components of a turned unit vector, are 1/3 and 2/(3 pi). Of
-// 128 independent ones they would be known to 0.026 and 0.014; here 0.006 and 0.011. Root mean squares over 60 seeds.
+// 128 independent ones they would be known to 0.026 and 0.014. Root mean squares over 60 seeds.
 TEST(Orientations, AreFilledMoreEvenlyThanAtRandom) {
   double square = 0, product = 0;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
