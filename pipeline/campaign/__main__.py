@@ -8,8 +8,10 @@
 README.md beside this script explains the keys of my.toml.
 """
 
+import contextlib
 import pathlib
 import sys
+import time
 
 FOLDER = pathlib.Path(__file__).resolve().parent
 sys.path.insert(1, str(FOLDER.parent / "report"))
@@ -17,6 +19,7 @@ sys.path.insert(1, str(FOLDER.parent / "report"))
 import answer  # noqa: E402
 import arguments  # noqa: E402
 import drawing  # noqa: E402
+import folder  # noqa: E402
 import kernel  # noqa: E402
 import outcome  # noqa: E402
 import plan as plans  # noqa: E402
@@ -72,10 +75,20 @@ def link_histories(histories, folder):
             place.symlink_to(source.resolve())
 
 
-def progress(number, of):
-    if sys.stderr.isatty() or number == of or number % 10 == 0:
-        print(f"\r{number} of {of} granules" if sys.stderr.isatty() else f"{number} of {of} granules", end="\n" if number == of or not sys.stderr.isatty() else "",
-              file=sys.stderr, flush=True)
+class Progress:
+    """A line on stderr: how many granules are there, and how long the others take if they are like those made so far."""
+
+    def __init__(self):
+        self.start = self.said = time.monotonic()
+
+    def __call__(self, number, of, made):
+        now, terminal = time.monotonic(), sys.stderr.isatty()
+        if number != of and now - self.said < (0.5 if terminal else 30):
+            return
+        self.said = now
+        left = (now - self.start) / made * (of - number) if made else 0
+        words = f"{number} of {of} granules" + (f", some {left / 60:.0f} min to go" if left > 90 else f", some {left:.0f} s to go" if left > 2 else "")
+        print(f"\r{words}\033[K" if terminal else words, end="\n" if number == of or not terminal else "", file=sys.stderr, flush=True)
 
 
 def granules(options):
@@ -85,6 +98,7 @@ def granules(options):
     if wanted and any(isinstance(seeds, list) for _, seeds in plan.points):
         raise Fault(f"{options.campaign}: seeds: a list cannot grow; --more-until needs a number of granules")
     options.out.mkdir(parents=True, exist_ok=True)
+    options.owned.enter_context(folder.own(options.out))
     link_histories(histories, options.out)
     runs = running.Runs(options.out, options.programs)
     more = {}
@@ -95,7 +109,7 @@ def granules(options):
             raise Fault(f"{options.campaign}: {fault}") from None
     while True:
         realisations = plans.realisations(plan, more)
-        runs.make_all(realisations, options.jobs or plan.jobs, progress)
+        runs.make_all(realisations, options.jobs or plan.jobs, Progress())
         rows = [outcome.row(one, runs, running.sha256) for one in realisations]
         more = precision.more(wanted, plan, rows) if wanted else {}
         if not more:
@@ -114,7 +128,7 @@ def run(options):
             drawing.strengths(plan, rows, quantity, options.out / f"{quantity.name}.svg")
     drawing.responses(plan, rows, options.out / "response.svg")
     print((options.out / "summary.md").read_text(encoding="utf-8"), end="")
-    print(f"{runs.done} runs made now; granules.csv, summary.csv and figures are in {options.out}", file=sys.stderr)
+    print(f"{runs.done} runs made now, {len(runs.failures)} of them failed; granules.csv, summary.csv and figures are in {options.out}", file=sys.stderr)
     return 1 if any(row.failure for row in rows) else 0
 
 
@@ -147,7 +161,8 @@ def tell_strength(options):
 def main():
     options = command_line().parse_args()
     try:
-        return {"run": run, "kernel": make_kernel, "strength": tell_strength}[options.verb](options)
+        with contextlib.ExitStack() as options.owned:
+            return {"run": run, "kernel": make_kernel, "strength": tell_strength}[options.verb](options)
     except Fault as fault:
         print(fault, file=sys.stderr)
         return 2

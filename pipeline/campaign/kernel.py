@@ -4,7 +4,6 @@ What the data do not bear is not stated; kernel.json then says why.
 """
 
 import json
-import os
 
 import dictionaries
 import fragments
@@ -13,6 +12,7 @@ import rate
 import sample
 import size_law
 import weibull
+import whole
 from outcome import BY_NAME, commits, within
 from runs import sha256
 from summary import by_point, of_sample, split
@@ -196,7 +196,7 @@ def write(folder, plan, rows, runs):
             place.unlink(missing_ok=True)
             written[name] = f"refused: {why}"
         else:
-            place.write_text(text, encoding="utf-8")
+            whole.write_text(place, text)
             written[name] = place.name
     errors = [row.errors[STRENGTH] for row in rows if STRENGTH in row.errors]
     kernel = {"format": kernel_schema.FORMAT, "campaign": plan.path.name, "commit": ", ".join(commits(rows, runs)), "granules_sha256": sha256(folder / "critical_stress.csv"),
@@ -206,7 +206,5 @@ def write(folder, plan, rows, runs):
               "classes": [_class(one) for one in classes], "size_law": size_part, "rate_law": rate_part, "fragments": fragment_part, "flexible_over_rigid": _ratio(rows),
               "dictionaries": written, "limits": LIMITS}
     kernel_schema.check(kernel, folder / "kernel.json")
-    temporary = folder / "kernel.json.tmp"
-    temporary.write_text(json.dumps(kernel, indent=1) + "\n")
-    os.replace(temporary, folder / "kernel.json")
+    whole.write_text(folder / "kernel.json", json.dumps(kernel, indent=1) + "\n")
     return kernel

@@ -10,12 +10,14 @@ import hashlib
 import os
 import signal
 import subprocess
+import sys
 import threading
 import tomllib
 
 import h5py
 
 import scene_text
+import whole
 from plan import PROGRAMS
 from scene_text import Fault
 
@@ -64,21 +66,22 @@ class Runs:
         path.parent.mkdir(parents=True, exist_ok=True)
         text = scene_text.write(run.scene, heading)
         if not path.is_file() or path.read_text() != text:
-            temporary = path.with_suffix(".toml.tmp")
-            temporary.write_text(text)
-            os.replace(temporary, path)
+            whole.write_text(path, text)
 
     def make(self, realisation):
-        """All runs of a granule; those after one that failed are left out."""
+        """All runs of a granule; those after one that failed are left out. Whether any had to be made."""
+        started = False
         for run in realisation.runs:
             if self.stopped is not None:
-                return
+                break
             if run.parent is not None and run.parent.id in self.failures:
                 continue
             if not self.is_finished(run):
                 self.write_scene(run, [f"{run.stage} {run.id}, granule {realisation.replicate + 1} of its point",
                                        *(f"{key} = {value}" for key, value in realisation.point.items())])
                 self.start(run)
+                started = True
+        return started
 
     def start(self, run):
         command = self.command(run, "-o", str(self.path(run)), "--report", str(self.path(run, ".json")), "--threads", "1",
@@ -111,13 +114,16 @@ class Runs:
         try:
             with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
                 waiting = [pool.submit(self.make, one) for one in realisations]
+                found = 0
                 for number, one in enumerate(concurrent.futures.as_completed(waiting), 1):
-                    one.result()
-                    say(number, len(waiting))
+                    found += not one.result()
+                    say(number, len(waiting), number - found)
         finally:
             for one, handler in was.items():
                 signal.signal(one, handler)
         if self.stopped is not None:
+            complete = sum(all(self.is_finished(run) for run in one.runs) for one in realisations)
+            print(f"stopped; {complete} of {len(realisations)} granules are there, the others go on from where they are with the same command", file=sys.stderr)
             raise SystemExit(128 + self.stopped)
 
     def check(self, realisation, granule):

@@ -4,6 +4,7 @@ import math
 
 import sample
 import weibull
+import whole
 from outcome import present
 from scene_text import canonical
 from table import markdown, write_records
@@ -131,6 +132,5 @@ def write(folder, plan, rows, made):
     table = records(plan, rows)
     if table:
         write_records(folder / "summary.csv", table)
-    (folder / "summary.md.tmp").write_text(text(plan, rows, made), encoding="utf-8")
-    (folder / "summary.md.tmp").replace(folder / "summary.md")
+    whole.write_text(folder / "summary.md", text(plan, rows, made))
     return table

@@ -5,10 +5,13 @@ below the options.
 """
 
 import argparse
+import atexit
 import contextlib
 import os
 import pathlib
 import sys
+
+import whole
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "python"))  # the module crumble; installed it is found anyway
 
@@ -77,7 +80,31 @@ def printing_to(out):
     if out is None:
         yield
         return
-    temporary = f"{out}.tmp"
-    with open(temporary, "w", encoding="utf-8") as text, contextlib.redirect_stdout(text):
+    with whole.replacing(out) as temporary, open(temporary, "w", encoding="utf-8") as text, contextlib.redirect_stdout(text):
         yield
-    os.replace(temporary, out)
+
+
+def _told(kind, error, trace):
+    """What stops a script from outside is told in a line: which file and why, not where in the script."""
+    if issubclass(kind, OSError) and error.strerror:
+        print(f"{pathlib.Path(sys.argv[0]).name}: {error.filename or 'stdout'}: {error.strerror}", file=sys.stderr)
+    elif issubclass(kind, KeyboardInterrupt):
+        print(f"{pathlib.Path(sys.argv[0]).name}: stopped", file=sys.stderr)
+    else:
+        sys.__excepthook__(kind, error, trace)
+
+
+sys.excepthook = _told
+
+
+@atexit.register
+def _flush():
+    """What is still to be printed when a script ends has an end like its other output, not one of Python's own."""
+    try:
+        if sys.stdout is not None:  # closed by whoever started it, who wants to read nothing
+            sys.stdout.flush()
+    except BrokenPipeError:
+        os._exit(1)  # whoever reads has read enough
+    except OSError as error:
+        _told(OSError, error, None)
+        os._exit(1)

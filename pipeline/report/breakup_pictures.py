@@ -9,6 +9,7 @@ import matplotlib
 import numpy
 
 import arguments
+import whole
 from figure import BLACK, BLUE, GREEN, ORANGE, pyplot, save
 from matplotlib.collections import PatchCollection
 from matplotlib.patches import Circle
@@ -70,7 +71,8 @@ def strip(path, out):
     first.text(-0.95 * wide, -0.9 * high, f"{bar:g} nm", fontsize=8)
     shades = matplotlib.cm.ScalarMappable(matplotlib.colors.Normalize(0, most), colours)
     figure.colorbar(shades, ax=list(panels[0]), fraction=0.02, pad=0.01, label="contacts")
-    figure.savefig(out, dpi=150, bbox_inches="tight")
+    with whole.replacing(out) as temporary:
+        figure.savefig(temporary, format="png", dpi=150, bbox_inches="tight")
     pyplot.close(figure)
 
 

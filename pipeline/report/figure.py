@@ -1,8 +1,8 @@
 """What all figures share: the same bytes every time, colours that all eyes tell apart, files that are whole or absent."""
 
-import os
-
 import matplotlib
+
+import whole
 
 matplotlib.use("Agg")
 matplotlib.rcParams.update({"svg.hashsalt": "crumble", "svg.fonttype": "none", "font.size": 9})
@@ -14,7 +14,6 @@ LINES = [(BLACK, "-"), (ORANGE, "--"), (BLUE, "-."), (GREEN, ":"), (PURPLE, (0, 
 
 
 def save(figure, out):
-    temporary = str(out) + ".tmp"
-    figure.savefig(temporary, format="svg", metadata={"Date": None})
+    with whole.replacing(out) as temporary:
+        figure.savefig(temporary, format="svg", metadata={"Date": None})
     pyplot.close(figure)
-    os.replace(temporary, out)

@@ -7,7 +7,6 @@ stress of the flow; ffmpeg joins them. A drying is coloured by distance from the
 """
 
 import concurrent.futures
-import os
 import pathlib
 import subprocess
 import tempfile
@@ -17,6 +16,7 @@ import numpy
 
 import arguments
 import picture
+import whole
 from report import FRAGMENTS
 
 MOST, SECONDS, WIDTH, LOOP_WIDTH = 150, 6, 720, 320  # frames, of the film, pixels
@@ -52,13 +52,12 @@ def drawings(path):
 
 
 def join(pattern, count, out, *how):
-    temporary = out.with_name(f"{out.stem}.tmp{out.suffix}")
     rate = f"{max(4, min(25, count / SECONDS)):.3f}"
-    done = subprocess.run(["ffmpeg", "-hide_banner", "-loglevel", "error", "-y", "-framerate", rate, "-i", str(pattern), *how, "-bitexact", str(temporary)],
-                          capture_output=True, text=True)
-    if done.returncode != 0:
-        raise SystemExit(f"ffmpeg: {done.stderr.strip()}")
-    os.replace(temporary, out)
+    with whole.replacing(out) as temporary:
+        done = subprocess.run(["ffmpeg", "-hide_banner", "-loglevel", "error", "-y", "-framerate", rate, "-i", str(pattern), *how, "-bitexact",
+                               "-f", out.suffix[1:], str(temporary)], capture_output=True, text=True)
+        if done.returncode != 0:
+            raise SystemExit(f"ffmpeg: {done.stderr.strip()}")
 
 
 def command_line():

@@ -2,8 +2,9 @@
 
 import base64
 import html
-import os
 import re
+
+import whole
 
 STYLE = """body{font:16px/1.5 system-ui,sans-serif;max-width:62rem;margin:2rem auto;padding:0 1rem;color:#222;background:#fff}
 table{border-collapse:collapse;margin:1rem 0;font-size:.85rem}td,th{border-bottom:1px solid #ccc;padding:.25rem .6rem;text-align:right}
@@ -38,6 +39,4 @@ def write(out, title, parts, style=""):
     body = "\n".join(parts)
     text = ('<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width,initial-scale=1">'
             f'<title>{html.escape(title)}</title><style>{STYLE}{style}</style></head><body>\n{body}\n</body></html>\n')
-    temporary = out.with_suffix(".tmp")
-    temporary.write_text(text, encoding="utf-8")
-    os.replace(temporary, out)
+    whole.write_text(out, text)

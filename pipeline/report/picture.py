@@ -7,7 +7,6 @@ frame of each. Spheres are coloured by their distance from the centre of mass (b
     picture.py --cut hollow-1.h5 compact-1.h5 -o granules.png
 """
 
-import os
 import pathlib
 import subprocess
 import tempfile
@@ -17,6 +16,7 @@ import matplotlib.font_manager
 import numpy
 
 import arguments
+import whole
 
 FRAMES, WIDTH = 5, 1200  # of one file; pixels
 COLOURS = matplotlib.colormaps["cividis"]
@@ -134,9 +134,8 @@ def render(text, aspect, out, width=WIDTH):
         if done.returncode != 0:
             raise SystemExit(f"povray: {done.stderr.strip().splitlines()[-1]}")
         data = timeless(image.read_bytes())
-    temporary = out.with_suffix(".png.tmp")
-    temporary.write_bytes(data)
-    os.replace(temporary, out)
+    with whole.replacing(out) as temporary:
+        temporary.write_bytes(data)
 
 
 def said_of(radii):

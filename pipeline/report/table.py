@@ -1,17 +1,16 @@
 """What all tables share: CSV files that are whole or absent, and Markdown."""
 
 import csv
-import os
+
+import whole
 
 
 def write_csv(path, heading, rows, comments=()):
-    temporary = f"{path}.tmp"
-    with open(temporary, "w", encoding="utf-8", newline="") as file:
+    with whole.replacing(path) as temporary, open(temporary, "w", encoding="utf-8", newline="") as file:
         file.writelines(f"# {comment}\n" for comment in comments)
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(heading)
         writer.writerows(rows)
-    os.replace(temporary, path)
 
 
 def write_records(path, records):

@@ -39,6 +39,7 @@ DECLARED = pathlib.Path(__file__).resolve().parent / "accuracy"
 
 sys.path.insert(0, str(ROOT / "pipeline/report"))
 import arguments  # noqa: E402
+import whole  # noqa: E402
 from table import markdown  # noqa: E402
 
 BEGIN, END = "<!-- measured: {} -->", "<!-- end -->"
@@ -196,9 +197,7 @@ def declarations():
 
 
 def write(path, text):
-    temporary = path.with_suffix(".md.tmp")
-    temporary.write_text(text, encoding="utf-8")
-    os.replace(temporary, path)
+    whole.write_text(path, text)
 
 
 def main(asked):

@@ -12,6 +12,7 @@ import json
 from drying import runs
 from interval import difference
 from table import print_markdown
+import whole
 
 # scene: Peclet number, particles, seeds of the default, which is cheap: many narrow the interval
 ROWS = {"intermediate": (10, 102, range(1, 26)), "compact": (1, 85, range(1, 13))}
@@ -84,7 +85,7 @@ def main(options):
     print(f"\n{runs.machine()}\n")
     print_markdown(heading + ["CPU s"], table)
     runs.store("brownian_reference.csv", __doc__.splitlines()[0], heading + ["cpu_s"], table)
-    STORED.write_text(json.dumps(stored, indent=1) + "\n", encoding="utf-8")
+    whole.write_text(STORED, json.dumps(stored, indent=1) + "\n")
     print(f"written: {STORED.relative_to(runs.ROOT)}")
     runs.judge(judged)
 

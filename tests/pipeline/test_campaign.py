@@ -239,13 +239,17 @@ class Running(InAFolder):
         command = [sys.executable, "-B", str(PACKAGE), "run", str(self.folder / "my.toml"), "-o", str(self.folder / "out"), "--programs", str(self.programs)]
         for signum in (signal.SIGTERM, signal.SIGINT):
             with self.subTest(signal=signum):
-                process = subprocess.Popen([*command, "--jobs", "2"], stderr=subprocess.DEVNULL)
+                process = subprocess.Popen([*command, "--jobs", "2"], stderr=subprocess.PIPE, text=True)
                 for _ in range(600):
                     if len(list((self.folder / "out/dry").glob("*.checkpoint"))) == 2:
                         break
                     time.sleep(0.1)
+                code, _, answer = self.run_it(PLAIN)  # a second one beside it
+                self.assertEqual((code, f"process {process.pid}" in answer), (2, True), answer)
                 process.send_signal(signum)
-                self.assertEqual(process.wait(60), 128 + signum)
+                said = process.communicate(timeout=60)[1]
+                self.assertEqual(process.returncode, 128 + signum)
+                self.assertIn("stopped; 0 of 3 granules are there", said)
                 self.assertEqual(list((self.folder / "out/dry").glob("*.h5")), [])
                 for path in (self.folder / "out/dry").glob("*.checkpoint"):
                     if signum == signal.SIGTERM:

@@ -8,7 +8,9 @@ import math
 import os
 import pathlib
 import re
+import resource
 import shlex
+import signal
 import subprocess
 import sys
 import tempfile
@@ -49,6 +51,26 @@ class Tables(InAFolder):
         with self.assertRaises(ZeroDivisionError):
             table.write_csv(path, ["x"], ([1 / k] for k in (1, 0)))
         self.assertEqual(path.read_bytes(), b'# why\nx,y\n1,"a, b"\n')
+
+    def test_a_disk_that_is_full_is_told_by_the_name_of_the_file_and_nothing_is_left_beside_it(self):
+        path = self.folder / "a.csv"
+        path.write_text("old")
+        resource.setrlimit(resource.RLIMIT_FSIZE, (1000, was := resource.getrlimit(resource.RLIMIT_FSIZE)[1]))
+        handler = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        try:
+            with self.assertRaises(OSError) as caught:
+                table.write_csv(path, ["x"], [["y" * 100]] * 100)
+        finally:
+            resource.setrlimit(resource.RLIMIT_FSIZE, (was, was))
+            signal.signal(signal.SIGXFSZ, handler)
+        self.assertEqual(caught.exception.filename, str(path))
+        self.assertEqual([one.read_text() for one in self.folder.iterdir()], ["old"])
+
+    def test_what_stops_a_script_from_outside_is_told_in_one_line(self):
+        script = PIPELINE / "report/population.py"
+        with open("/dev/full", "w", encoding="utf-8") as full:
+            done = subprocess.run(["/usr/bin/python3", "-B", script, f"hollow={PIPELINE / 'campaigns/hollow.csv'}"], stdout=full, stderr=subprocess.PIPE, text=True)
+        self.assertEqual((done.returncode, done.stderr), (1, "population.py: stdout: No space left on device\n"))
 
     def test_records_keep_the_order_of_their_keys(self):
         table.write_records(self.folder / "a.csv", [{"b": 1, "a": 2}, {"b": 3, "a": 4}])
