@@ -1,4 +1,5 @@
-"""Other programs' readers open what `agglomerate export` writes, and the files themselves: ASE, MDAnalysis and, where it is installed, ParaView.
+"""Other programs' readers open what `agglomerate export` and the Python module write, and the files themselves: ASE, MDAnalysis, GSD and,
+where it is installed, ParaView.
 
 VTK's reader is asked by export_test.cpp, array by array.
 """
@@ -6,8 +7,10 @@ VTK's reader is asked by export_test.cpp, array by array.
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 import warnings
@@ -18,6 +21,9 @@ import numpy
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 TOOL = pathlib.Path(os.environ.get("CRUMBLE_BUILD", ROOT / "build/release")) / "bin/agglomerate"
 SAMPLES = [ROOT / f"data/samples/{name}-1.2.h5" for name in ("dryer", "breaker")]
+sys.path.insert(0, str(ROOT / "pipeline/python"))
+import crumble
+
 # A server that starts again after each client, as it does by itself, loses the next one: MPI of ParaView looks for screens first.
 SCREEN = "-screen 0 1280x1024x24 -noreset"
 # ParaView's own Python asks its own reader and draws with view.py.
@@ -79,14 +85,42 @@ class Viewers(unittest.TestCase):
         manual = (ROOT / "common/tool/README.md").read_text(encoding="utf-8")
         lines = [line.strip() for line in manual.splitlines() if "MDAnalysis.Universe" in line or "load_new" in line]
         self.assertEqual(len(lines), 2)
-        for sample in SAMPLES:
-            names = {"MDAnalysis": MDAnalysis}
-            exec("\n".join(lines).replace("granule.h5", str(sample)).replace("115", "8"), names)
+        short = re.search(r"`(u = Universe\.empty.*?)`", (ROOT / "README.md").read_text(encoding="utf-8"))[1]  # as README says it
+        for sample, text in ((sample, text) for sample in SAMPLES for text in ("\n".join(lines), short)):
+            names = {"MDAnalysis": MDAnalysis, "Universe": MDAnalysis.Universe, "N": 8}
+            exec(re.sub(r"granule\.h5|a\.h5", str(sample), text).replace("115", "8"), names)
             with h5py.File(sample) as file:
                 self.assertEqual(len(names["u"].trajectory), len(file["particles/all/position/time"]))
                 for k, step in enumerate(names["u"].trajectory):
                     place = file["particles/all/position/value"][k]
                     numpy.testing.assert_allclose(step.positions / 10, place, rtol=0, atol=2e-7 * numpy.abs(place).max())  # it keeps single precision
+
+    def test_gsd_reads_particles_bonds_and_times_of_every_frame(self):
+        try:
+            import gsd.hoomd
+        except ModuleNotFoundError:
+            self.skipTest("this system has no gsd")
+        for sample in SAMPLES:
+            crumble.read(sample).to_gsd(self.folder / "a.gsd")
+            with h5py.File(sample) as file, gsd.hoomd.open(str(self.folder / "a.gsd")) as found:
+                times, offset = file["particles/all/position/time"][:], file["contacts/offset"][:]
+                self.assertEqual(len(found), len(times))
+                for k, frame in enumerate(found):
+                    rows = slice(offset[k], offset[k + 1])
+                    place, radius = file["particles/all/position/value"][k], file["particles/all/radius"][:]
+                    self.assertEqual(frame.configuration.step, file["particles/all/position/step"][k])
+                    self.assertEqual(frame.log["time_s"][0], times[k])
+                    numpy.testing.assert_array_equal(frame.particles.position, place.astype("f4"))
+                    numpy.testing.assert_array_equal(frame.particles.diameter, (2 * radius).astype("f4"))
+                    numpy.testing.assert_array_equal(frame.particles.mass, file["particles/all/mass"][:].astype("f4"))
+                    self.assertGreater(frame.configuration.box[0] / 2, (abs(place) + radius[:, None]).max() * (1 - 1e-6))
+                    numpy.testing.assert_array_equal(frame.bonds.group, file["contacts/pair"][rows])
+                    numpy.testing.assert_array_equal(frame.log["bonds/tension_N"], file["contacts/normal_force"][rows])
+                    self.assertEqual(frame.log["particles/contacts"].sum(), 2 * file["observables/contact_count/value"][k])
+                    if "orientation" in file["particles/all"]:
+                        numpy.testing.assert_array_equal(frame.particles.orientation, file["particles/all/orientation/value"][k].astype("f4"))
+                        numpy.testing.assert_array_equal(frame.log["particles/fragment"], file["particles/all/fragment/value"][k])
+                        self.assertEqual(frame.log["flow_stress_Pa"][0], file["observables/flow_stress/value"][k])
 
     def test_many_frames_stand_in_a_folder_beside_their_series(self):
         series = self.exported(SAMPLES[0], "a.hdf").with_suffix(".hdf.series")

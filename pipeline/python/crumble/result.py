@@ -6,6 +6,7 @@ import tomllib
 import h5py
 import numpy
 
+from . import gsd_file
 from .arrays import Array, Table
 
 # What the numbers of `events.kind` mean, in the words of SCHEMA.md.
@@ -168,6 +169,17 @@ class Result:
         offset = self["events/fragment_offset"]
         event = range(len(offset) - 1)[event]
         return self["events/fragment_sizes"][offset[event]:offset[event + 1]]
+
+    def to_gsd(self, path):
+        """All frames with their times, contacts as bonds, for OVITO, MDAnalysis and what else reads GSD. Needs Debian's python3-gsd.
+
+        >>> import crumble, gsd.hoomd
+        >>> crumble.read("data/samples/breaker-1.2.h5").to_gsd(folder / "breakup.gsd")
+        >>> last = gsd.hoomd.open(str(folder / "breakup.gsd"))[-1]
+        >>> last.particles.N, last.bonds.N, last.log["particles/fragment"].tolist()
+        (8, 8, [0, 0, 0, 0, 1, 0, 0, 0])
+        """
+        gsd_file.write(self, path)
 
     @property
     def results(self):
