@@ -167,7 +167,7 @@ std::string result_text(const BreakupRun& run, const BreakerScene& scene, std::o
   if (b.severed) {
     const auto error = relative_error(b, companion);
     text += fmt::format("critical stress        {:.1f}{} Pa, {}{}\n", *b.severed,
-                        error ? fmt::format(" +- {:.1f}", *error * *b.severed) : "", rate(*b.severed) + ", ",
+                        error ? fmt::format(" ± {:.1f}", *error * *b.severed) : "", rate(*b.severed) + ", ",
                         breakage(b, scene));
     text += fmt::format("fragment beyond reach  {:.1f} Pa, {}\n", *b.lost, rate(*b.lost));
   } else {
@@ -188,7 +188,7 @@ std::string result_text(const BreakupRun& run, const BreakerScene& scene, std::o
   text += "\n";
   text += fmt::format("1/s: shear rate in this liquid of {:g} Pa s; {}, as in: {}\n", scene.liquid.viscosity,
                       name_of(scene.flow), device_of(name_of(scene.flow)));
-  if (relative_error(b, companion)) text += "+-: " + how_estimated(scene, b, companion) + "\n";
+  if (relative_error(b, companion)) text += "±: " + how_estimated(scene, b, companion) + "\n";
   return text;
 }
 

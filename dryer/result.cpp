@@ -130,7 +130,7 @@ void fill_report(Report& report, const DryingScene& scene, const DryingRun& run,
 
 std::string result_text(const Morphology& m, const std::optional<DryingOutcome>& companion) {
   const auto error = [&](double value, double other, int digits) {
-    return companion ? fmt::format(" +- {:.{}f}", std::abs(value - other), digits) : std::string();
+    return companion ? fmt::format(" ± {:.{}f}", std::abs(value - other), digits) : std::string();
   };
   const DryingOutcome other = companion.value_or(DryingOutcome{});
   std::string text;
@@ -141,7 +141,7 @@ std::string result_text(const Morphology& m, const std::optional<DryingOutcome>&
   text += fmt::format("contacts      {}{}\n", m.contacts, error(static_cast<double>(m.contacts), other.contacts, 0));
   text += fmt::format("coordination  {:.3f}\n", m.coordination);
   text += fmt::format("fragments     {}\n", m.fragments);
-  if (companion) text += "+-: difference to the same run with doubled step control\n";
+  if (companion) text += "±: difference to the same run with doubled step control\n";
   return text;
 }
 

@@ -9,6 +9,7 @@ import json
 
 import arguments
 import crumble
+from headline import with_error
 from table import write_csv
 
 KINDS = ["slips", "twists", "rolls", "breaks", "made", "fragment lost"]
@@ -40,7 +41,7 @@ def main(options):
     result, error = found["results"], found["errors"]["critical_stress_relative"]["value"]
     rigid = path.with_name(path.stem + "-rigid.json")
     print(f"{'critical stress, flexible':34}", "nothing broke" if result["critical_stress_pa"] is None else
-          f"{result['critical_stress_pa']:.0f} Pa" + (f" +- {100 * error:.2g} %" if error is not None else ""))
+          with_error(result["critical_stress_pa"], error, "Pa"))
     if result["first_rupture_stress_pa"] is not None:
         print(f"{'first contact breaks':34} {result['first_rupture_stress_pa']:.0f} Pa")
     if rigid.exists():

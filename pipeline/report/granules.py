@@ -78,10 +78,11 @@ def table(row, reports):
     means = [statistics.fmean(r["results"][column[0]] for r in reports) for column in COLUMNS]
     if len(reports) > 1:
         total = ["", "", "", f"{sum(r['cpu_s'] for r in reports):.2f}"]
-        rows.append(["mean"] + [column[2].format(mean) for column, mean in zip(COLUMNS, means)] + total)
-        for name, of in (("spread", statistics.stdev), ("+-95%", half_width)):
+        # A spread of two says nothing.
+        two = (("lowest", min), ("highest", max))
+        for name, of in two if len(reports) == 2 else (("mean", statistics.fmean), ("spread", statistics.stdev), ("±95%", half_width)):
             figures = [of([r["results"][column[0]] for r in reports]) for column in COLUMNS]
-            rows.append([name] + [column[2].format(figure) for column, figure in zip(COLUMNS, figures)] + blank)
+            rows.append([name] + [column[2].format(figure) for column, figure in zip(COLUMNS, figures)] + (total if name in ("mean", "highest") else blank))
     rows.append(["error"] + [error_cell(row, reports, mean, c) for c, mean in zip(COLUMNS, means)] + blank)
     rows.append(["paper"] + [paper_cell(row, column) for column in COLUMNS] + blank)
     if len(reports) > 2:
@@ -128,7 +129,8 @@ def show(rows):
         program = f"{reports[0]['program']} {reports[0]['version']}"
         print(f"{len(reports)} {row} {granules} ({published.GRANULES[row]['title']}), {program}, {reports[0]['scene']}\n")
         print("\n".join(table(row, reports) + [""] + notes(row, reports)) + "\n")
-    print("mean: over the seeds (cpu s: the sum). spread: standard deviation between seeds. +-95%: of the mean.\n"
+    print("mean: over the seeds (cpu s: the sum). spread: standard deviation between seeds. ±95%: half of the 95 % interval\n"
+          "    of the mean; of two granules stand the lowest and the highest.\n"
           "error: numerical error, the largest of the seeds (?: not estimated).\n"
           "paper: Vasquez Giuliano et al. 2022, Table 2 and sections 3.1, 3.3, one realisation; place: where it lies\n"
           "    among ours, in spreads from the mean.")

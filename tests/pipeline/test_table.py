@@ -36,9 +36,15 @@ class Table(unittest.TestCase):
         self.assertEqual(self.row(done, "mean"), ["160.0", "0.300", "175.0", "3.04", "4.50"])
         self.assertEqual(self.row(done, "spread"), ["10.0", "0.000", "5.0", "0.09"])
         # Student's t for three: 4.30/sqrt(3) = 2.483 spreads.
-        self.assertEqual(self.row(done, "+-95%"), ["24.8", "0.000", "12.4", "0.22"])
+        self.assertEqual(self.row(done, "±95%"), ["24.8", "0.000", "12.4", "0.22"])
         self.assertEqual(self.row(done, "place"), ["+0.0", "-", "+1.8", "+1.6"])
         self.assertEqual(self.row(done, "2"), ["160.0", "0.300", "180", "3.13", "1", "200", "2.00", "1.50"])
+
+    def test_two_granules_are_shown_as_lowest_and_highest(self):
+        done = self.table(report(1, 170, 170), report(2, 160.0, 180))
+        self.assertEqual(self.row(done, "lowest"), ["160.0", "0.300", "170.0", "2.96"])
+        self.assertEqual(self.row(done, "highest"), ["170.0", "0.300", "180.0", "3.13", "3.00"])
+        self.assertFalse([line for line in done.stdout.splitlines() if line.split()[:1] in (["spread"], ["±95%"])])
 
     def test_the_error_is_the_largest_of_the_seeds_in_the_unit_of_its_column(self):
         errors = {"h_c_over_d_c": 0.002, "contacts_relative": 0.0}
