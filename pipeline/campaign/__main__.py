@@ -10,6 +10,7 @@ README.md beside this script explains the keys of my.toml.
 
 import contextlib
 import pathlib
+import shutil
 import sys
 import time
 
@@ -121,6 +122,8 @@ def granules(options):
 def run(options):
     plan, runs, rows = granules(options)
     outcome.write(options.out / "granules.csv", plan, rows)
+    if options.campaign.resolve() != (options.out / "campaign.toml").resolve():
+        shutil.copyfile(options.campaign, options.out / "campaign.toml")
     made = f"by the programs of commit {', '.join(outcome.commits(rows, runs)) or 'unknown'}."
     summary.write(options.out, plan, rows, made)
     for quantity in outcome.present(rows):

@@ -35,6 +35,16 @@ def file(text):
     return path
 
 
+def file_or(is_folder, of):
+    """Type of an argument that is a file or a folder of this kind."""
+    def found(text):
+        path = pathlib.Path(text)
+        if path.is_dir() and not is_folder(path):
+            raise argparse.ArgumentTypeError(f"{text}: not a folder of {of}")
+        return path if path.is_dir() else file(text)
+    return found
+
+
 def group(text):
     """NAME=FILE,FILE,... as (name, [path])."""
     name, equals, names = text.partition("=")

@@ -17,6 +17,17 @@ def as_html(head, rows):
     return "<table>" + cell("th", head) + "".join(cell("td", row) for row in rows) + "</table>"
 
 
+def from_markdown(path):
+    """The table of a .md file, and the lines after it."""
+    if not path.exists():
+        return missing(path)
+    lines = path.read_text(encoding="utf-8").strip().splitlines()
+    rows = [[c.strip() for c in line.strip("|").split("|")] for line in lines if line.startswith("|")]
+    end = max(k for k, line in enumerate(lines) if line.startswith("|"))
+    rest = " ".join(lines[end + 1:])
+    return as_html(rows[0], rows[2:]) + f"<p>{html.escape(rest)}</p>"
+
+
 def missing(path):
     return f'<p class="missing">{html.escape(path.name)} was not made in this run.</p>'
 

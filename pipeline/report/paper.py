@@ -16,7 +16,7 @@ import arguments
 import breakups
 import published
 from interval import half_width
-from page import as_html, figure, missing, write
+from page import as_html, figure, from_markdown, write
 
 TITLES = {name: row["title"] for name, row in published.GRANULES.items()} | {"adhesive": "bond of 42 kT, Pe = 10, N = 85"}
 # Columns of strength/table.csv as the page names them.
@@ -43,16 +43,6 @@ def stored_error(row):
     d_c = load(STORED)[row]["d_c_relative"]
     low, high = (100 * (d_c["difference"] + side * d_c["interval_95"]) for side in (-1, 1))
     return f"d_c {low:+.1f} to {high:+.1f} % of full stiffness (stored)"
-
-
-def from_markdown(path):
-    """The table of a .md file, and the lines after it."""
-    if not path.exists():
-        return missing(path)
-    lines = path.read_text().strip().splitlines()
-    rows = [[c.strip() for c in line.strip("|").split("|")] for line in lines if line.startswith("|")]
-    rest = " ".join(line for line in lines if not line.startswith("|"))
-    return as_html(rows[0], rows[2:]) + f"<p>{html.escape(rest)}</p>"
 
 
 def from_csv(path):
@@ -127,7 +117,7 @@ class Page:
                  "orbit, mean over orbits. ±: half of the 95 % interval of the mean; two granules: lowest to highest. Error: the largest that rigidstress states for one "
                  "granule.</p>",
                  figure(folder / "fig8.svg", "Fig. 8. Tension of each contact in elongation. Open symbols: one granule of each kind; dots: all others."),
-                 figure(folder / "fig9.svg", "Fig. 9. Largest tension in shear. Dotted: mean of the largest over each orbit."))
+                 figure(folder / "fig9.svg", "Fig. 9. Largest tension in shear. Dotted: mean of the largest over each orbit, band: its 95 % interval; of two granules lowest and highest."))
 
     def breakups(self):
         folder = self.results / "breakup"
@@ -184,7 +174,7 @@ def main(options):
     page.table2()
     page.difference()
     page.add("<h2>Table 3 and Fig. 4: the lifetime at high Péclet numbers</h2>", from_markdown(results / "lifetime/table3.md"),
-             figure(results / "lifetime/table3.svg", "Fig. 4. Bars: standard deviation between granules."),
+             figure(results / "lifetime/table3.svg", "Fig. 4. Bars: 95 % interval of the mean; of two granules lowest and highest."),
              "<h2>Fig. 5: particles and the continuum model</h2>", from_markdown(results / "figure5.md"),
              figure(results / "figure5.svg", "Fig. 5. Dashed: continuum, through the same estimator; bands and bars: two standard errors. Above as the "
                     "paper draws it, below on the radius that centres reach. Centres stay about 0.9 a inside the surface, "

@@ -3,7 +3,10 @@
 The page holds all that it needs and opens from disk. What the files say is taken as it stands; shape, contacts and fragments come from the
 program `agglomerate`. Without Debian's libjs-three the page is made without the 3D view.
 
+The folder of a campaign stands for its summary, its figures and three of its granules.
+
     report.py hollow-1.h5 hollow-1-break.h5 -o report.html
+    report.py results/my -o report.html
 """
 
 import html
@@ -20,6 +23,7 @@ import matplotlib
 import arguments
 import figures
 import headline
+import of_campaign
 import page
 import picture
 from interval import half_width
@@ -55,14 +59,14 @@ def library():
 
 
 def view(files, tool):
-    """The parts of the page that make the 3D view."""
+    """The parts of the page that make the 3D view. files: {path: its name on the page}."""
     three = library()
     if three is None:
         print("without a 3D view: Debian's package libjs-three is not there", file=sys.stderr)
     heads, parts = [], [(HERE / "view.html").read_text(encoding="utf-8")]
-    for k, path in enumerate(files if three else []):
+    for k, (path, name) in enumerate(files.items() if three else []):
         head, block = packed(path, tool, ROOM / len(files))
-        heads.append(head | {"block": f"frames-{k}"})
+        heads.append(head | {"block": f"frames-{k}", "name": name})
         parts.append(f'<script type="text/plain" id="frames-{k}">{block}</script>')
     data = {"files": heads, "sequential": colours("cividis"), "diverging": colours("RdBu_r"), "fragments": FRAGMENTS,
             "without": "This page was made without the 3D view: Debian's package libjs-three was not there. Numbers and figures follow."}
@@ -101,13 +105,13 @@ def details(title, body):
     return f"<details><summary>{title}</summary>{body}</details>"
 
 
-def section(path, info, results, folder):
+def section(path, name, info, results, folder):
     with h5py.File(path) as file:
         scene = {name: file[f"parameters/{name}"].asstr()[()] for name in ("input", "resolved") if f"parameters/{name}" in file}
     size = info["radius_nm"]
     spheres = headline.with_error(size["mean"], None, "nm") if size["smallest"] == size["largest"] else \
         f"{headline.with_error(size['smallest'], None, 'nm')} to {headline.with_error(size['largest'], None, 'nm')}"
-    parts = [f'<h2>{html.escape(path.name)}: {STAGES[info["stage"]]}</h2>',
+    parts = [f'<h2>{html.escape(name)}: {STAGES[info["stage"]]}</h2>',
              f'<p>{info["particles"]} particles of radius {spheres}; {info["frames"]} frames, the last in state “{info["state"]}”, written by '
              f'{info["provenance"]["program"]} {info["provenance"]["version"]} on {info["provenance"]["created"][:10]}.</p>', numbers(results)]
     for name, caption in figures.drawn(path, folder / path.stem):
@@ -144,33 +148,46 @@ def comparison(files, folder):
     return [table(head, rows, "compared"), page.figure(folder / "compared.svg", "One point a file; bars: numerical error; crosses: none is stated.")]
 
 
-def made(files, tool, out):
-    names = " ".join(str(path) for path in files)
+def files_of(given):
+    """{path: its name on the page} of files and of the folders of campaigns."""
+    found = {}
+    for path in given:
+        found |= of_campaign.shown(path) if path.is_dir() else {path: path.name}
+    return found
+
+
+def made(given, tool, out):
+    names = " ".join(str(path) for path in given)
+    files = files_of(given)
     infos = [json.loads(run(tool, "info", path, "--json")) for path in files]  # refuses what is no result
-    results = [(path.stem, headline.results(path, tool)) for path in files]
+    results = {path: headline.results(path, tool) for path in files}
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        parts = [f"<h1>{html.escape(', '.join(path.stem for path in files[:4]) + (' …' if len(files) > 4 else ''))}</h1>",
+        parts = [f"<h1>{html.escape(', '.join(path.resolve().stem for path in given[:4]) + (' …' if len(given) > 4 else ''))}</h1>",
                  "<p>Computed by Crumble, particle by particle. ± is on this page the numerical error that the file states for a number; how "
                  "granules scatter from seed to seed is another matter and stands in words. µγ̇: stress of the flow, viscosity times shear rate.</p>"]
         if len(files) == 1:
-            parts.append(numbers(results[0][1]))
+            parts.append(numbers(*results.values()))
+        for path in given:
+            parts += of_campaign.parts(path) if path.is_dir() else []
         parts += view(files, tool)
+        # Granules that were chosen by their strength have no mean.
         kinds = {}
-        for result in results:
-            kinds.setdefault(tuple(r.key for r in result[1]), []).append(result)
+        for path in given:
+            if not path.is_dir():
+                kinds.setdefault(tuple(r.key for r in results[path]), []).append((path.stem, results[path]))
         for same in kinds.values():
             if len(same) > 1:
                 parts += ["<h2>Side by side</h2>", *comparison(same, folder)]
-        for path, info, (_, found) in zip(files, infos, results):
-            parts += section(path, info, found, folder)
+        for (path, title), info in zip(files.items(), infos):
+            parts += section(path, title, info, results[path], folder)
         parts.append(f"<h2>This page</h2><pre>make -C pipeline report FILES=\"{html.escape(names)}\"</pre>")
-        page.write(out, "Crumble: " + ", ".join(path.stem for path in files), parts, (HERE / "view.css").read_text(encoding="utf-8"))
+        page.write(out, "Crumble: " + ", ".join(path.resolve().stem for path in given), parts, (HERE / "view.css").read_text(encoding="utf-8"))
 
 
 def command_line():
     parser = arguments.parser(__doc__, "the page", "FILE.html")
-    arguments.add_files(parser, "of any program", "RESULT.h5")
+    parser.add_argument("files", type=arguments.file_or(of_campaign.is_one, "a campaign"), nargs="+", metavar="RESULT.h5", help="of any program, or the folder of a campaign")
     parser.add_argument("--tool", default="../build/release/bin/agglomerate", metavar="PROGRAM", help="the program agglomerate (%(default)s)")
     return parser
 

@@ -22,6 +22,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 TOOL = str(pathlib.Path(os.environ.get("CRUMBLE_BUILD", ROOT / "build/release")) / "bin/agglomerate")
 sys.path.insert(0, str(ROOT / "pipeline/report"))
 import headline
+import of_campaign
 import packed
 import report
 
@@ -132,6 +133,31 @@ class Page(unittest.TestCase):
             text = (self.folder / "side.html").read_text(encoding="utf-8")
             self.assertIn("Side by side", text)
             self.assertEqual("95 % interval over files" in text, there)
+
+    def test_the_folder_of_a_campaign_stands_for_its_summary_and_its_weakest_middle_and_strongest_granule(self):
+        folder = self.folder / "my"
+        rows = ["id,seed,d_c [nm],critical_stress_worst [Pa],stress_id,dry_sha256"]
+        for k, stress in enumerate((300, 100, 500, "", 200, 400)):
+            for stage, sample in (("dry", SAMPLES[0]), ("stress", SAMPLES[2])):
+                (folder / stage).mkdir(parents=True, exist_ok=True)
+                shutil.copy(sample, folder / stage / f"{stage[0]}{k}.h5")
+            rows.append(f"d{k},{k},100.123456,{stress},s{k},0")
+        (folder / "granules.csv").write_text("# my.toml\n" + "\n".join(rows) + "\n")
+        (folder / "summary.md").write_text("# my\n\n6 granules at 1 point of my.toml; by the programs of commit abc.\n\n| quantity | mean |\n|---|---|\n| d_c | 77.7 (70 to 80) |\n\nwords below\n")
+        (folder / "campaign.toml").write_text("seeds = 6 # as given\n")
+        (folder / "critical_stress_worst.svg").write_text("<svg><g id='drawn'/></svg>")
+        self.assertEqual({str(path.relative_to(folder)): name for path, name in of_campaign.shown(folder).items()},
+                         {"dry/d1.h5": "weakest granule, dried", "stress/s1.h5": "weakest granule, loaded", "dry/d0.h5": "middle granule, dried",
+                          "stress/s0.h5": "middle granule, loaded", "dry/d2.h5": "strongest granule, dried", "stress/s2.h5": "strongest granule, loaded"})
+        report.made([folder], TOOL, self.folder / "campaign.html")
+        text = (self.folder / "campaign.html").read_text(encoding="utf-8")
+        for there in ("77.7 (70 to 80)", "words below", "id='drawn'", "commit abc", "CAMPAIGN=my.toml", "seeds = 6 # as given", "<td>100.1</td>",
+                      "<h2>weakest granule, dried: dried droplet</h2>"):
+            self.assertIn(there, text)
+        self.assertNotIn("Side by side", text)  # chosen granules have no mean
+        with self.assertRaises(SystemExit), contextlib.redirect_stderr(io.StringIO()) as said:
+            report.command_line().parse_args([str(folder / "dry"), "-o", "a.html"])
+        self.assertIn("not a folder of a campaign", said.getvalue())
 
     def test_a_file_that_is_no_result_is_refused_by_name(self):
         (self.folder / "no.h5").write_text("no")
