@@ -77,7 +77,9 @@ def responses(plan, rows, out):
             for one in table:
                 if one["quantity"] != quantity.name or one["mean"] is None or not isinstance(one[heading], (int, float)):
                     continue
-                if one["mean_low"] is None:
+                if one["granules"] == 2:
+                    axes.plot([one[heading]] * 2, [one["lowest"], one["highest"]], "o-", color=LINES[2][0], markersize=3, fillstyle="none", linewidth=0.6)
+                elif one["mean_low"] is None:
                     axes.plot(one[heading], one["mean"], "o", color=LINES[2][0], markersize=3, fillstyle="none")
                 else:
                     axes.errorbar(one[heading], one["mean"], [[max(0, one["mean"] - one["mean_low"])], [max(0, one["mean_high"] - one["mean"])]], fmt="o",
@@ -87,6 +89,6 @@ def responses(plan, rows, out):
             if places[0] > 0 and places[-1] > 5 * places[0]:
                 axes.set_xscale("log")
         panels[-1][column].set_xlabel(f"{key.split('.', 1)[1]}{f', {plan.unit(key)}' if plan.unit(key) else ''}")
-    figure.suptitle("means ± 95 % interval by bootstrap; open: too few granules for one", fontsize=7)
+    figure.suptitle("filled: mean, bar: its 95 % interval by bootstrap; open: a mean of too few granules for one, or two granules", fontsize=7)
     save(figure, out)
     return True

@@ -31,7 +31,8 @@ def split(rows, quantity):
 
 def of_sample(values, above, name):
     """Statistics of one sample; a mean only where every value is known."""
-    found = {"mean": None, "mean_low": None, "mean_high": None, "spread": None, "spread_low": None, "spread_high": None}
+    found = {"mean": None, "mean_low": None, "mean_high": None, "spread": None, "spread_low": None, "spread_high": None,
+             "lowest": min(values, default=None), "highest": max(values, default=None)}
     if values and not above:
         found["mean"] = float(sample.mean(values))
         if len(values) > 1:
@@ -75,6 +76,8 @@ def short(value):
 
 
 def with_interval(found, name):
+    if found["granules"] == 2 and not found["censored"]:  # a mean of two is less than the two
+        return f"{short(found['lowest'])} to {short(found['highest'])}" if name == "mean" else "-"
     if found[name] is None:
         return "-"
     low, high = found[f"{name}_low"], found[f"{name}_high"]
@@ -120,7 +123,7 @@ def text(plan, rows, made):
          *(with_interval(one, f"q{100 * p:.0f}") for p in QUANTILES), percent(one["sampling_error_relative"]), percent(one["numerical_error_relative"]),
          str(one["censored"]), str(one["without_value"]), str(one["failed"])] for one in table]))
     lines += ["", "In brackets: 95 % intervals, by bootstrap of mean and spread (standard deviation), from ordered values of quantiles; ?: too few granules "
-              "to bound it on that side. Sampling error: half of the interval of the mean. Numerical error: mean of what the runs state. Censored: nothing broke up to "
+              "to bound it on that side. Two granules stand as lowest to highest. Sampling error: half of the interval of the mean. Numerical error: mean of what the runs state. Censored: nothing broke up to "
               "the largest stress tried. Without: no value, such as a granule that settles nowhere. Failed: the run ended with an error.", ""]
     lines += weibull_lines(plan, rows, present(rows))
     if failures:

@@ -1,6 +1,7 @@
 """One breakup in pictures (Figs 6 and 7 of Vasquez Giuliano et al. 2022): snapshots as a strip, courses against flow stress.
 
-The strip looks along y, so that elongation and shear lie in the page; spheres are coloured by their number of contacts.
+The strip looks along y, so that elongation and shear lie in the page; spheres are coloured by their number of contacts; each snapshot has its flow
+stress and its time.
 
     breakup_pictures.py results/hollow-1-break.h5 -o results/hollow-1-break
 """
@@ -13,6 +14,7 @@ import whole
 from figure import BLACK, BLUE, GREEN, ORANGE, pyplot, save
 from matplotlib.collections import PatchCollection
 from matplotlib.patches import Circle
+from picture import in_time, length
 
 SNAPSHOTS = 6
 
@@ -46,12 +48,13 @@ def strip(path, out):
         stress = file["observables/flow_stress/value"][:]
         frames = chosen(stress, file["h5md/modules/agglomerate"].attrs["state"] in ("broken", b"broken"), SNAPSHOTS)
         radius, offset = file["particles/all/radius"][:], file["contacts/offset"][:]
+        time, unit = in_time(file["particles/all/position/time"][:])
         snapshots = []
         for k in frames:
             pairs = file["contacts/pair"][offset[k]:offset[k + 1]]
             x, label = file["particles/all/position/value"][k], file["particles/all/fragment/value"][k]
             largest = numpy.bincount(label).argmax()
-            snapshots.append((stress[k], x - x[label == largest].mean(axis=0),
+            snapshots.append((f"{stress[k]:.0f} Pa, {time[k]:.3g} {unit}", x - x[label == largest].mean(axis=0),
                               numpy.bincount(pairs.ravel(), minlength=len(radius))))
     # One scale for all panels; pieces of the end may be far away and are cut off.
     wide, high = (1.1 * max(abs(x[:, axis]).max() for _, x, _ in (snapshots[:-1] or snapshots)) + 2 * radius.max()
@@ -60,17 +63,17 @@ def strip(path, out):
                                      figsize=(2.6 * len(snapshots), 2.6 * high / wide + 0.5))
     colours = matplotlib.colormaps["cividis"]
     most = max(8, max(contacts.max() for _, _, contacts in snapshots))
-    for axes, (value, x, contacts) in zip(panels[0], snapshots):
+    for axes, (title, x, contacts) in zip(panels[0], snapshots):
         draw(axes, x, radius, contacts, lambda c: colours(c / most))
-        axes.set(xlim=(-wide, wide), ylim=(-high, high), aspect="equal", xticks=[], yticks=[], title=f"{value:.0f} Pa")
+        axes.set(xlim=(-wide, wide), ylim=(-high, high), aspect="equal", xticks=[], yticks=[], title=title)
         for side in axes.spines.values():
             side.set_visible(False)
     first = panels[0][0]
     bar = 10 ** numpy.floor(numpy.log10(wide))
     first.plot([-0.95 * wide, -0.95 * wide + bar], [-0.95 * high] * 2, color=BLACK, linewidth=2)
-    first.text(-0.95 * wide, -0.9 * high, f"{bar:g} nm", fontsize=8)
+    first.text(-0.95 * wide, -0.9 * high, f"{length(bar)}; particles of radius {length(radius.mean())}", fontsize=8)
     shades = matplotlib.cm.ScalarMappable(matplotlib.colors.Normalize(0, most), colours)
-    figure.colorbar(shades, ax=list(panels[0]), fraction=0.02, pad=0.01, label="contacts")
+    figure.colorbar(shades, ax=list(panels[0]), fraction=0.02, pad=0.01, label="contacts of a particle")
     with whole.replacing(out) as temporary:
         figure.savefig(temporary, format="png", dpi=150, bbox_inches="tight")
     pyplot.close(figure)
@@ -82,19 +85,20 @@ def course(path, out):
         critical = file["breakup/critical_stress"][()] if "breakup/critical_stress" in file else None
         error = file["errors/critical_stress"][()] if "errors/critical_stress" in file else 0.0
     stress, size = series["flow_stress"], series["radius_of_gyration"][0]
+    factor, unit = (1e-3, "µm") if size >= 1000 else (1, "nm")
     figure, (shape, contacts, limits) = pyplot.subplots(1, 3, figsize=(12, 3.6), constrained_layout=True)
     for name, label, colour, dashes in (("semi_axis_largest", "largest semi-axis", ORANGE, "-"),
                                         ("semi_axis_middle", "middle semi-axis", GREEN, "--"),
                                         ("semi_axis_smallest", "smallest semi-axis", BLUE, "-."),
                                         ("radius_of_gyration", "radius of gyration", BLACK, ":")):
-        shape.plot(stress, series[name], dashes, color=colour, label=label)
-    shape.set(ylabel="nm", ylim=(0, 4 * size))
+        shape.plot(stress, factor * series[name], dashes, color=colour, label=label)
+    shape.set(ylabel=f"size of the largest piece, {unit}", ylim=(0, 4 * factor * size))
     contacts.plot(stress, series["contacts"], color=BLUE, label="contacts")
     contacts.plot(stress, series["largest_fragment"], "--", color=ORANGE, label="particles, largest fragment")
     contacts.set(ylabel="number", ylim=(0, None))
     for name, colour, dashes in (("slipping", GREEN, "--"), ("twisting", BLUE, "-."), ("rolling", ORANGE, "-")):
         limits.plot(stress, series[name], dashes, color=colour, label=f"{name} contacts")
-    limits.set(ylabel="at their limit", ylim=(0, None))
+    limits.set(ylabel="number at their limit", ylim=(0, None))
     for axes in (shape, contacts, limits):
         if critical is not None:
             axes.axvline(critical, color=BLACK, linewidth=0.6, zorder=0)

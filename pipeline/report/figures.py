@@ -24,19 +24,21 @@ def drying(file, out):
     has_places = "morphology/radial_position" in file  # not in every file of earlier programs
     figure, panels = pyplot.subplots(1, 2 + has_places, figsize=(11, 3.2), layout="constrained")
     size, contacts = panels[:2]
-    size.plot(time, course["droplet_radius/value"][:], "-", color=BLUE, label="droplet, radius")
-    size.plot(time, course["radius_of_gyration/value"][:], "--", color=ORANGE, label="particles, radius of gyration")
+    droplet = course["droplet_radius/value"][:]
+    factor, of_length = (1e-3, "µm") if droplet[0] >= 1000 else (1, "nm")
+    size.plot(time, factor * droplet, "-", color=BLUE, label="droplet, radius")
+    size.plot(time, factor * course["radius_of_gyration/value"][:], "--", color=ORANGE, label="particles, radius of gyration")
     if "morphology/diameter" in file:
-        radius = file["morphology/diameter"][()] / 2
+        radius = factor * file["morphology/diameter"][()] / 2
         error = file["errors/d_c"][()] * radius if "errors/d_c" in file else None
         size.errorbar(time[-1], radius, error, fmt="o", color=BLACK, capsize=3, label="granule, d_c/2" + (" ± error" if error is not None else ""))
-    size.set(xlabel=f"time, {unit}", ylabel="nm", ylim=(0, None))
+    size.set(xlabel=f"time, {unit}", ylabel=of_length, ylim=(0, None))
     contacts.plot(time, course["coordination_number/value"][:], color=BLUE)
     contacts.set(xlabel=f"time, {unit}", ylabel="mean number of contacts of a particle", ylim=(0, None))
     if has_places:
-        r = file["morphology/radial_position"][:]
+        r = factor * file["morphology/radial_position"][:]
         panels[2].step([0, *r], [0, *(numpy.arange(1, len(r) + 1) / len(r))], where="post", color=BLUE)
-        panels[2].set(xlabel="distance from the centre of mass, nm", ylabel="share of the particles within", ylim=(0, 1), xlim=(0, None))
+        panels[2].set(xlabel=f"distance from the centre of mass, {of_length}", ylabel="share of the particles within", ylim=(0, 1), xlim=(0, None))
     size.legend(frameon=False, fontsize=8)
     save(figure, out)
 
@@ -45,16 +47,17 @@ def loads(file, out):
     """Tension of each contact in each flow, and the largest along the worst orbit, with the error that the file states."""
     error = float(file["response/error"][()]) if "response/error" in file else 0.0
     flows = {name: group for name, group in file["flows"].items() if "normal_force" in group}
+    factor, of_length = (1e-3, "µm") if max(group["radial_position"][:].max() for group in flows.values()) >= 1000 else (1, "nm")
     orbits = {name: group for name, group in flows.items() if "max_tension" in group}
     figure, panels = pyplot.subplots(1, 1 + bool(orbits), figsize=(11 if orbits else 6, 3.4), layout="constrained", squeeze=False)
     for k, (name, group) in enumerate(flows.items()):
-        tension, radial = group["normal_force"][:] * 1e12, group["radial_position"][:]
+        tension, radial = group["normal_force"][:] * 1e12, factor * group["radial_position"][:]
         colour = LINES[k % len(LINES)][0]
         panels[0][0].plot(radial, tension, MARKS[k % len(MARKS)], color=colour, markersize=3, alpha=0.5, label=flow_title(name))
         top = tension.argmax()
         panels[0][0].errorbar(radial[top], tension[top], error * tension[top], fmt=MARKS[k % len(MARKS)], color=colour, markersize=5, capsize=4)
     panels[0][0].axhline(0, color="#888888", linewidth=0.6)
-    panels[0][0].set(xlabel="distance of the contact from the centre of mass, nm", ylabel="tension at µγ̇ = 1 Pa, pN", xlim=(0, None))
+    panels[0][0].set(xlabel=f"distance of the contact from the centre of mass, {of_length}", ylabel="tension at µγ̇ = 1 Pa, pN", xlim=(0, None))
     panels[0][0].legend(frameon=False, fontsize=8)
     for k, (name, group) in enumerate(orbits.items()):
         time, tension = group["time"][:], group["max_tension"][:] * 1e12

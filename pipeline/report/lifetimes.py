@@ -28,7 +28,7 @@ def read(path):
 
 
 def rows(runs):
-    """One row a lifetime and integrator: means, spreads and the front's speed at the final radius over the limit."""
+    """One row a lifetime and integrator: means, their intervals, and the front's speed at the final radius over the limit."""
     for key in sorted({(run["lifetime_ms"], run["integrator"]) for run in runs}):
         group = [run for run in runs if (run["lifetime_ms"], run["integrator"]) == key]
         row = {"lifetime_ms": key[0], "integrator": key[1], "granules": len(group)}
@@ -37,17 +37,31 @@ def rows(runs):
             row[name] = statistics.fmean(values)
             row[name + "_spread"] = statistics.stdev(values)
             row[name + "_half_width"] = half_width(values)
+            row[name + "_lowest"], row[name + "_highest"] = min(values), max(values)
         row["front_over_limit"] = group[0]["k"] / (1e-6 * row["d_c_um"]) / group[0]["limit"]
         row["cpu_s"] = statistics.fmean(run["cpu_s"] for run in group)
         yield row
 
 
+def cell(row, name, form):
+    if row["granules"] == 2:
+        return f"{form.format(row[name + '_lowest'])} to {form.format(row[name + '_highest'])}"
+    return f"{form.format(row[name])} ± {form.format(row[name + '_half_width'])} (sd {form.format(row[name + '_spread'])})"
+
+
+def reach(row, name):
+    """How far a bar goes down and up from the mean: to the ends of its interval, of two granules to both."""
+    if row["granules"] == 2:
+        return row[name] - row[name + "_lowest"], row[name + "_highest"] - row[name]
+    return row[name + "_half_width"], row[name + "_half_width"]
+
+
 def show(table):
     print_markdown(["lifetime ms", "integrator", "granules", *(label for _, label, _ in QUANTITIES), "front", "CPU s"],
                    [[f"{row['lifetime_ms']:g}", row["integrator"], str(row["granules"]),
-                     *(f"{form.format(row[name])} (sd {form.format(row[name + '_spread'])})" for name, _, form in QUANTITIES),
+                     *(cell(row, name, form) for name, _, form in QUANTITIES),
                      f"{row['front_over_limit']:.2f}", f"{row['cpu_s']:.1f}"] for row in table])
-    print("\nsd: standard deviation between granules. front: speed of the receding surface where its radius is d_c/2, over the\n"
+    print("\n±: half of the 95 % interval of the mean; two granules: lowest to highest. sd: standard deviation between granules. front: speed of the receding surface where its radius is d_c/2, over the\n"
           "speed sigma/(3 mu) at which the capillary force can move a particle.")
 
 
@@ -57,7 +71,7 @@ def draw(table, out):
         for integrator, colour, marker in (("overdamped", BLUE, "o"), ("inertial", ORANGE, "x")):
             mine = [row for row in table if row["integrator"] == integrator]
             axes.errorbar([row["lifetime_ms"] for row in mine], [row[name] for row in mine],
-                          [row[name + "_spread"] for row in mine], fmt=marker, color=colour, capsize=2, label=integrator,
+                          list(zip(*(reach(row, name) for row in mine))) or None, fmt=marker, color=colour, capsize=2, label=integrator,
                           fillstyle="none")
         axes.set(xlabel="lifetime, ms", ylabel=label, xscale="log", ylim=(0, None))
         axes.axvspan(3, 25, color="#dddddd", zorder=0, label="Table 3")

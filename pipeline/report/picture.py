@@ -141,7 +141,7 @@ def render(text, aspect, out, width=WIDTH):
 def said_of(radii):
     """What is drawn, for who has no legend: mean radii and the meaning of the colours."""
     known = sorted({length(a) for a in radii})
-    return f"particles of {', '.join(known)}; bright: far from the middle"
+    return f"particles of radius {', '.join(known)}; bright: far from the middle"
 
 
 def command_line():

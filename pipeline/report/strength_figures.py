@@ -10,8 +10,10 @@ import numpy
 
 import arguments
 from figure import BLUE, GREEN, ORANGE, pyplot, save
+from interval import half_width
 
-STYLES = {"compact": (ORANGE, "o"), "hollow": (BLUE, "s"), "adhesive": (GREEN, "^")}
+STYLES = {"compact": (ORANGE, "o", "--"), "hollow": (BLUE, "s", "-"), "adhesive": (GREEN, "^", "-.")}
+OTHER = (GREEN, "^", "-.")
 UNIT = "/(6πμγ̇a²)"
 
 
@@ -29,7 +31,7 @@ def read(path):
 def tension_against_radius(found, out):
     figure, axes = pyplot.subplots(figsize=(4.4, 3.2), layout="constrained")
     for population, agglomerates in found.items():
-        colour, marker = STYLES.get(population, (GREEN, "^"))
+        colour, marker, _ = STYLES.get(population, OTHER)
         for k, points in enumerate(agglomerates.values()):
             axes.plot(*points.T, marker, color=colour, markersize=3.5 if k == 0 else 1.2, alpha=1 if k == 0 else 0.25,
                       fillstyle="none" if k == 0 else "full", linestyle="", label=population if k == 0 else None,
@@ -43,12 +45,16 @@ def tension_against_radius(found, out):
 def tension_in_time(found, out):
     figure, axes = pyplot.subplots(figsize=(5.2, 3.2), layout="constrained")
     for population, agglomerates in found.items():
-        colour, _ = STYLES.get(population, (GREEN, "^"))
+        colour, _, dashes = STYLES.get(population, OTHER)
         for k, points in enumerate(agglomerates.values()):
-            axes.plot(*points.T, color=colour, linewidth=1.4 if k == 0 else 0.5, alpha=1 if k == 0 else 0.35,
+            axes.plot(*points.T, color=colour, linestyle=dashes, linewidth=1.4 if k == 0 else 0.5, alpha=1 if k == 0 else 0.35,
                       label=population if k == 0 else None)
-        mean = statistics.fmean(points[:, 1].max() for points in agglomerates.values())
+        largest = [points[:, 1].max() for points in agglomerates.values()]
+        mean = statistics.fmean(largest)
         axes.axhline(mean, color=colour, linestyle=":", linewidth=1.2)
+        if len(largest) > 1:
+            half = half_width(largest)
+            axes.axhspan(*((min(largest), max(largest)) if len(largest) == 2 else (mean - half, mean + half)), color=colour, alpha=0.12, linewidth=0, zorder=0)
     axes.set(xlabel="γ̇ t", ylabel="N_max" + UNIT, xlim=(0, 100), ylim=(0, None))
     axes.legend(frameon=False)
     save(figure, out)

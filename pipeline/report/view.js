@@ -438,7 +438,7 @@ function start() {
   openFile(0).then(() => { document.documentElement.dataset.view = 'ready'; }, error => fail(`The 3D view failed: ${error.message}`));
 }
 // For tests: what is shown, and how long a draw takes.
-window.crumbleView = {state, get drawn() { return drawn; }, get resting() { return resting && !asked; },
+window.crumbleView = {state, get drawn() { return drawn; }, get calls() { return renderer.info.render.calls; }, get resting() { return resting && !asked; },
   time(times, part = 1) {
     const gl = renderer.getContext(), pixel = new Uint8Array(4), start = performance.now();
     resting = part === 1;

@@ -4,11 +4,11 @@
 
 The granules are those of data/, dried at 10 nm and scaled to 100 nm. Times are CPU seconds of one core. The error is that of the critical stress against the finest run of the same ramp.
 """
+import argparse
 import json
 import os
 import pathlib
 import subprocess
-import sys
 import tempfile
 
 from coil import coil
@@ -29,8 +29,14 @@ def agglomerate_of(centres, agglomerate, folder):
 
 
 def main():
-    breaker, agglomerate = (str(pathlib.Path(p).resolve()) for p in sys.argv[1:3])
-    smallest, largest = map(int, sys.argv[3:5]) if len(sys.argv) > 4 else (2, 115)
+    first, _, rest = __doc__.strip().partition("\n")
+    parser = argparse.ArgumentParser(description=first, epilog=rest, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("breaker", type=lambda p: str(pathlib.Path(p).resolve()))
+    parser.add_argument("agglomerate", type=lambda p: str(pathlib.Path(p).resolve()))
+    parser.add_argument("smallest", nargs="?", type=int, default=2, help="clusters of so many particles (%(default)s)")
+    parser.add_argument("largest", nargs="?", type=int, default=115, help="to so many (%(default)s)")
+    options = parser.parse_args()
+    breaker, agglomerate, smallest, largest = options.breaker, options.agglomerate, options.smallest, options.largest
     os.environ.update(OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
     # rate over the paper's, tolerances; the explicit integrator where it takes minutes at most
     plan = {"doublet 2": ([[0, 0, 0], [200, 0, 0]], [(1, [0.03, 0.01, 0.003, 0.001]), (100, [0.01, 0.001, "explicit"])]),

@@ -11,6 +11,7 @@ import re
 import resource
 import shlex
 import signal
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -25,6 +26,7 @@ import arguments
 import concentration
 import lifetimes
 import table
+from interval import half_width
 drying_map = importlib.import_module("map")  # not to hide the built-in
 
 SCENE = """[droplet]
@@ -157,18 +159,31 @@ class Arguments(InAFolder):
                     parser.parse_args([])  # as `make verify` runs it
 
 
-    def test_every_shell_script_and_program_of_paraview_answers_help(self):
-        scripts = sorted(set(PIPELINE.rglob("*.sh")) - {PIPELINE / "verify/platforms/chroot.sh"}) + [PIPELINE / "view.py"]
-        self.assertGreater(len(scripts), 6)
+    def test_every_other_script_answers_help_as_a_program(self):
+        # Those of report and verify are asked above, without a process for each.
+        programs = [path for path in sorted(PIPELINE.rglob("*.py")) if '__name__ == "__main__"' in path.read_text(encoding="utf-8")
+                    and path.parent.name not in ("report", "verify", "campaign")]
+        scripts = sorted(set(PIPELINE.rglob("*.sh")) - {PIPELINE / "verify/platforms/chroot.sh"}) + programs
+        scripts += [PIPELINE / "campaign", PIPELINE / "install/crumble", PIPELINE / "install/crumble-demo", *sorted((PIPELINE.parent / "tests").rglob("bench.py")),
+                    PIPELINE.parent / "tests/faults/plant.py"]
+        self.assertGreater(len(scripts), 15)
         for path in scripts:
             with self.subTest(script=path.name):
-                command = "/usr/bin/python3" if path.suffix == ".py" else "/bin/bash"
-                done = subprocess.run([command, path, "--help"], capture_output=True, text=True, timeout=30)
+                command = ["/bin/bash"] if path.suffix == ".sh" or path.parent.name == "install" else ["/usr/bin/python3", "-B"]
+                done = subprocess.run([*command, path, "--help"], capture_output=True, text=True, timeout=30)
                 self.assertEqual((done.returncode, done.stderr), (0, ""))
                 self.assertGreater(len(done.stdout.splitlines()), 0)
 
 
 class Lifetimes(InAFolder):
+    def test_two_granules_are_lowest_to_highest_and_more_have_an_interval(self):
+        row = lambda *values: {"granules": len(values), "d": statistics.fmean(values), "d_lowest": min(values), "d_highest": max(values),
+                               "d_spread": statistics.stdev(values), "d_half_width": half_width(values)}
+        self.assertEqual(lifetimes.cell(row(2.0, 1.0), "d", "{:.2f}"), "1.00 to 2.00")
+        self.assertEqual(lifetimes.reach(row(2.0, 1.0), "d"), (0.5, 0.5))
+        # Student's t for three: 4.30/sqrt(3) = 2.483 spreads.
+        self.assertEqual(lifetimes.cell(row(1.0, 2.0, 3.0), "d", "{:.2f}"), "2.00 ± 2.48 (sd 1.00)")
+
     def test_the_integrator_is_that_of_the_report_whatever_the_name(self):
         report = {"inputs": {"integrator": {"method": "overdamped"}}, "cpu_s": 1, "results": {
             "inputs": {"lifetime_s": 3e-3, "capillary_speed_limit_m_per_s": 1, "evaporation_constant_m2_per_s": 1}, "d_c_nm": 8e3,
