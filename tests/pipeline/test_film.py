@@ -59,7 +59,7 @@ class Pictures(unittest.TestCase):
     def test_a_picture_says_radius_times_and_what_its_colours_mean(self):
         panels, unit = picture.frames(DRYING, 3)
         text, _ = picture.scene([(*panel, False) for panel in panels], unit, picture.said_of([unit]))
-        self.assertIn("particles of 10 nm; bright: far from the middle", text)
+        self.assertIn("particles of radius 10 nm; bright: far from the middle", text)
         with h5py.File(DRYING) as file:
             last = file["particles/all/position/time"][-1]
         self.assertIn(f'"{1e6 * last:.3g} µs"', text)
