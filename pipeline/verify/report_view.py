@@ -105,35 +105,38 @@ def keys(browser, claim, page):
     claim(page, "Tab leads from the view to the next control", browser.js("document.activeElement.id") == "file")
 
 
-# The coloured pixel that is nearest to the middle of the picture.
-MIDDLE = """(() => { const c = document.getElementById('canvas'), r = c.getBoundingClientRect(), d = document.createElement('canvas');
-d.width = c.width; d.height = c.height; const x = d.getContext('2d'); x.drawImage(c, 0, 0); const p = x.getImageData(0, 0, c.width, c.height).data;
-let best = null, least = 1e9; for (let v = 0; v < c.height; v += 2) for (let u = 0; u < c.width; u += 2) { const k = 4 * (v * c.width + u);
-const away = Math.hypot(u - c.width / 2, v - c.height / 2); if (p[k] + p[k + 1] + p[k + 2] < 600 && away < least) { least = away; best = [u, v]; } }
-return best && [r.left + best[0] * r.width / c.width, r.top + best[1] * r.height / c.height]; })()"""
+# The coloured pixel that is nearest to the middle of the picture, among those that were white in the picture before.
+MIDDLE = """(() => { const c = document.getElementById('canvas'), r = c.getBoundingClientRect(), d = document.createElement('canvas'), w = c.width;
+d.width = w; d.height = c.height; const x = d.getContext('2d'); x.drawImage(c, 0, 0); const p = x.getImageData(0, 0, w, c.height).data, was = window.before;
+window.before = p; let best = null, least = 1e9; const white = (q, k) => q[k] + q[k + 1] + q[k + 2] > 750;
+for (let v = 0; v < c.height; ++v) for (let u = 0; u < w; ++u) { const k = 4 * (v * w + u), away = Math.hypot(u - w / 2, v - c.height / 2);
+if (p[k] + p[k + 1] + p[k + 2] < 600 && away < least && (!was || white(was, k))) { least = away; best = [u, v]; } }
+return best && [r.left + (best[0] + 0.5) * r.width / w, r.top + (best[1] + 0.5) * r.height / c.height]; })()"""
+
+
+def click(browser, what):
+    """On what came into the picture since it was looked at last; what the page then tells."""
+    browser.mouse(*((kind, *what) for kind in ("Pressed", "Released")))
+    return browser.js("document.getElementById('details').innerText")
 
 
 def clicks(browser, claim, page):
-    """A click in the middle of the picture tells the numbers of what is there: of a particle where spheres are whole, of a contact where they are small."""
-    for what, bonds, size, words in (("particle", False, 100, ("radius", "nm", "centre")), ("contact of", True, 10, ("tension", "gap", "nm"))):
-        browser.js("document.getElementById('reset').click()")
-        set_value(browser, "find", "", "change")
-        set_value(browser, "bonds", bonds, "change")
-        set_value(browser, "size", size, "input")
-        settled(browser)
-        said = ""
-        for key in (None, *6 * ("ArrowLeft",)):  # a small sphere may stand before the contact: from another side it does not
-            if key:
-                browser.js("document.getElementById('canvas').focus()")
-                browser.key(key)
-                settled(browser)
-            where = browser.js(MIDDLE)
-            if where:
-                browser.mouse(("Pressed", *where), ("Released", *where))
-                said = browser.js("document.getElementById('details').innerText")
-            if said.startswith(what):
-                break
-        claim(page, f"a click on a {what.split()[0]} tells its numbers", said.startswith(what) and all(word in said for word in words), said.split("\n")[0].replace("\t", " "))
+    """A click tells the numbers of what is there: of a particle, and of a contact where there was nothing without contacts."""
+    browser.js("document.getElementById('reset').click(); window.before = null")
+    for name, value, event in (("find", "", "change"), ("bonds", False, "change"), ("size", 100, "input")):
+        set_value(browser, name, value, event)
+    settled(browser)
+    said = click(browser, browser.js(MIDDLE))
+    claim(page, "a click on a particle tells its numbers", said.startswith("particle") and "radius" in said and "nm" in said, said.split("\n")[0].replace("\t", " "))
+    set_value(browser, "size", 40, "input")
+    set_value(browser, "find", "", "change")
+    settled(browser)
+    browser.js(MIDDLE)
+    set_value(browser, "bonds", True, "change")
+    set_value(browser, "size", 40, "input")
+    settled(browser)
+    said = click(browser, browser.js(MIDDLE))
+    claim(page, "a click on a contact tells its numbers", said.startswith("contact of") and "tension" in said and "gap" in said, said.split("\n")[0].replace("\t", " "))
 
 
 def width_of(browser):
