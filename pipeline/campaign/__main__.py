@@ -10,7 +10,6 @@ README.md beside this script explains the keys of my.toml.
 
 import contextlib
 import pathlib
-import shutil
 import sys
 import time
 
@@ -28,6 +27,7 @@ import precision  # noqa: E402
 import runs as running  # noqa: E402
 import size_law  # noqa: E402
 import summary  # noqa: E402
+import whole  # noqa: E402
 from scene_text import Fault  # noqa: E402
 
 ROOT = FOLDER.parents[1]
@@ -122,8 +122,7 @@ def granules(options):
 def run(options):
     plan, runs, rows = granules(options)
     outcome.write(options.out / "granules.csv", plan, rows)
-    if options.campaign.resolve() != (options.out / "campaign.toml").resolve():
-        shutil.copyfile(options.campaign, options.out / "campaign.toml")
+    whole.write_text(options.out / "campaign.toml", options.campaign.read_text(encoding="utf-8"))
     made = f"by the programs of commit {', '.join(outcome.commits(rows, runs)) or 'unknown'}."
     summary.write(options.out, plan, rows, made)
     for quantity in outcome.present(rows):
