@@ -42,11 +42,11 @@ def main(options):
     rows = []
     for name, (what, _) in CHOICES.items():
         found = results[name]
-        row = [what, str(len(found)), f"{runs.mean(found, 'd_c_nm'):.1f} +- {runs.spread(found, 'd_c_nm'):.1f}",
+        row = [what, str(len(found)), f"{runs.mean(found, 'd_c_nm'):.1f} ± {runs.spread(found, 'd_c_nm'):.1f}",
                f"{runs.mean(found, 'h_c_over_d_c'):.3f}",
-               f"{runs.mean(found, 'contacts'):.0f} +- {runs.spread(found, 'contacts'):.0f}"]
+               f"{runs.mean(found, 'contacts'):.0f} ± {runs.spread(found, 'contacts'):.0f}"]
         shift, half = difference([r["contacts"] for r in found], [r["contacts"] for r in default])
-        row.append("" if found is default else f"{100 * shift / runs.mean(default, 'contacts'):+.0f} +- "
+        row.append("" if found is default else f"{100 * shift / runs.mean(default, 'contacts'):+.0f} ± "
                                                f"{100 * half / runs.mean(default, 'contacts'):.0f}")
         rows.append(row + [f"{runs.mean(found, 'coordination'):.2f}", f"{runs.mean(found, 'fragments'):.1f}",
                            f"{runs.mean(found, 'cpu_s'):.1f}"])

@@ -36,9 +36,9 @@ def shift(found, full, key):
 def table_row(row, name, found, full):
     cells = [row, name, str(len(found))]
     for key, _, digits, _, _ in QUANTITIES:
-        cells.append(f"{runs.mean(found, key):{digits}} +- {runs.spread(found, key):{digits}}")
+        cells.append(f"{runs.mean(found, key):{digits}} ± {runs.spread(found, key):{digits}}")
         percent, half = (100 * x / runs.mean(full, key) for x in shift(found, full, key))
-        cells.append("" if found is full else f"{percent:+.1f} +- {half:.1f}")
+        cells.append("" if found is full else f"{percent:+.1f} ± {half:.1f}")
     return cells + [f"{runs.mean(found, 'cpu_s'):.1f}"]
 
 
@@ -61,7 +61,7 @@ def claims(row, default, full):
         scale = runs.mean(full, key)
         found, half = (x / scale for x in shift(default, full, key))
         yield (f"{row}, {title}: 95 % interval of the difference, {100 * (found - half):+.1f} to {100 * (found + half):+.1f} %, "
-               f"within +-{100 * BOUNDS[row][key]:g} %", abs(found) + half < BOUNDS[row][key])
+               f"within ±{100 * BOUNDS[row][key]:g} %", abs(found) + half < BOUNDS[row][key])
 
 
 def command_line():

@@ -1,8 +1,8 @@
 """Which choice decides the contacts of a hollow granule? One choice changed at a time, the same random starts.
 
 Two independent codes differed by 14 % in contacts at the same limit of rolling (data/drying_codes.csv): LAMMPS with
-inertia and JKR (lifetime/10, gap < 0.02 a) had 174 +- 2, a sketch without inertia and with a softened contact (full
-lifetime, gap < 0.05 a) 201 +- 6. Each of these differences is a row here, and so is the resistance to twisting.
+inertia and JKR (lifetime/10, gap < 0.02 a) had 174 ± 2, a sketch without inertia and with a softened contact (full
+lifetime, gap < 0.05 a) 201 ± 6. Each of these differences is a row here, and so is the resistance to twisting.
 
     drying_choices.py --seeds 1 2 --jobs 2
 """
@@ -79,7 +79,7 @@ def change(results, name):
 
 
 def with_spread(rows, key, form):
-    return f"{runs.mean(rows, key):{form}} +- {runs.spread(rows, key):{form}}"
+    return f"{runs.mean(rows, key):{form}} ± {runs.spread(rows, key):{form}}"
 
 
 def printed(results, name):
@@ -89,7 +89,7 @@ def printed(results, name):
                                                            ("contacts", ".1f"))]
     out += [f"{runs.mean(rows, key):{form}}" for key, form in (("within_0_02_a", ".1f"), ("within_0_05_a", ".1f"),
                                                               ("coordination", ".2f"), ("cpu_s", ".1f"))]
-    return out + [f"{percent:+.1f} +- {error:.1f} % of '{CHOICES[other][0]}'" if other else ""]
+    return out + [f"{percent:+.1f} ± {error:.1f} % of '{CHOICES[other][0]}'" if other else ""]
 
 
 def stored(results, name):
@@ -110,14 +110,14 @@ def claims(results):
     # where sliding yields; a tree has 2. The widths hold for the mean of five starts of 115 particles, whose counts
     # scatter by 2 to 3 %.
     return [
-        (f"no friction at all: coordination {coordination['no_sliding']:.2f}, isostatic 6.0 +- 0.1",
+        (f"no friction at all: coordination {coordination['no_sliding']:.2f}, isostatic 6.0 ± 0.1",
          abs(coordination["no_sliding"] - 6.0) < 0.1),
-        (f"sliding friction only: coordination {coordination['no_rolling']:.2f}, 4.0 +- 0.2",
+        (f"sliding friction only: coordination {coordination['no_rolling']:.2f}, 4.0 ± 0.2",
          abs(coordination["no_rolling"] - 4.0) < 0.2),
         (f"bonds that do not roll, twist or bend: coordination {coordination['endless_stiff']:.2f}, nearly a tree, "
-         "2.2 +- 0.15",
+         "2.2 ± 0.15",
          abs(coordination["endless_stiff"] - 2.2) < 0.15),
-        (f"defaults: d_c {d_c:.1f} nm, 160 +- 5 nm", abs(d_c - 160) < 5),
+        (f"defaults: d_c {d_c:.1f} nm, 160 ± 5 nm", abs(d_c - 160) < 5),
         ("inertia, lifetime, numerical precision and normal law change the contacts by less than 5 % each: "
          + ", ".join(f"{changed[name]:+.1f}" for name in small), all(abs(changed[name]) < 5 for name in small)),
         (f"twisting resistance left out: {changed['rolling_no_twisting']:+.1f} %, more than 10 %",

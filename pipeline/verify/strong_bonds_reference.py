@@ -30,9 +30,9 @@ def shift(found, reference, key):
 def table_row(peclet, name, found, reference):
     cells = [str(peclet), name, str(len(found))]
     for key, _, digits, _ in QUANTITIES:
-        cells.append(f"{runs.mean(found, key):{digits}} +- {runs.spread(found, key):{digits}}")
+        cells.append(f"{runs.mean(found, key):{digits}} ± {runs.spread(found, key):{digits}}")
         mean, half = (100 * x for x in shift(found, reference, key))
-        cells.append("" if found is reference else f"{mean:+.1f} +- {half:.1f}")
+        cells.append("" if found is reference else f"{mean:+.1f} ± {half:.1f}")
     lost = statistics.fmean(row["contacts_lost"] for row in found)
     return cells + [f"{lost:.1f}", f"{runs.mean(found, 'cpu_s'):.2f}"]
 
@@ -42,7 +42,7 @@ def claims(peclet, found, reference):
         if bound is None:
             continue
         mean, half = shift(found, reference, key)
-        yield (f"Pe = {peclet}, {title}: {100 * mean:+.1f} +- {100 * half:.1f} %, the mean within +-{100 * bound:g} %",
+        yield (f"Pe = {peclet}, {title}: {100 * mean:+.1f} ± {100 * half:.1f} %, the mean within ±{100 * bound:g} %",
                abs(mean) < bound)
 
 

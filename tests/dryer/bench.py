@@ -92,7 +92,7 @@ def beside(peer, seeds, jobs):
 
 
 def show(table):
-    form = lambda value, half: f"{value:+.1f} +- {half:.1f}" if half else f"{value:.2f}"
+    form = lambda value, half: f"{value:+.1f} ± {half:.1f}" if half else f"{value:.2f}"
     print_markdown(["row", "control", "granules", "CPU s", "d_c error %", "contacts error %", "overlap a", "Gamma"],
                    [[r["row"], r["case"], str(r["granules"]), f"{r['cpu_s']:.3g}", form(r["d_c_percent"], r["d_c_half"]),
                      form(r["contacts_percent"], r["contacts_half"]), f"{r['overlap_over_a']:.2g}",

@@ -3,7 +3,7 @@
 //
 //   bond_statistics [time of a pair in us, 2000] [time of 30 particles in us, 40]
 //
-// +-: standard error over independent runs.
+// ±: standard error over independent runs.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -165,9 +165,9 @@ int main(int argc, char** argv) {
     const PairRow pair = pair_row(material, control, fine ? pair_time / 4 : pair_time);
     const std::string of_many = fine ? "" : [&] {
       const Mean bonds = bonds_of_30(material, control, time_of_30);
-      return fmt::format("{:.2f} +- {:.2f}", bonds.value, bonds.error);
+      return fmt::format("{:.2f} ± {:.2f}", bonds.value, bonds.error);
     }();
-    fmt::print("| {:g} | {:g} | {:.4f} +- {:.4f} | {:.1f} +- {:.1f} | {} |\n", softening, step, pair.bonded.value,
+    fmt::print("| {:g} | {:g} | {:.4f} ± {:.4f} | {:.1f} ± {:.1f} | {} |\n", softening, step, pair.bonded.value,
                pair.bonded.error, 1e9 * pair.lifetime.value, 1e9 * pair.lifetime.error, of_many);
     std::fflush(stdout);
   }
