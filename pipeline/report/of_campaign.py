@@ -45,9 +45,24 @@ def table(folder):
     return f'<div class="table">{page.as_html(columns, cells)}</div>'
 
 
+# Of summary.md, in the order of the page; the keys that were varied stand before them.
+HEADLINE = ("quantity", "granules", "mean", "spread", "50 %", "sampling error", "numerical error")
+
+
+def headline(folder):
+    lines = [line for line in (folder / "summary.md").read_text(encoding="utf-8").splitlines() if line.startswith("|")]
+    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
+    kept = [*range(rows[0].index("quantity")), *(rows[0].index(name) for name in HEADLINE)]
+    head, _, *rest = [[row[k] for k in kept] for row in rows]
+    return f'<div class="table campaign">{page.as_html(head, rest)}</div>'
+
+
 def parts(folder):
     name = folder.resolve().name
-    out = [f"<h2>Campaign {html.escape(name)}</h2>", f'<div class="table">{page.from_markdown(folder / "summary.md")}</div>']
+    out = [f"<h2>Campaign {html.escape(name)}</h2>", headline(folder),
+           "<p>In brackets: 95 % intervals; spread: standard deviation between granules; 50 %: median. Sampling error: half of the interval of the mean. "
+           "Numerical error: mean of what the runs state. A question mark: too few granules to bound it on that side; two granules stand as lowest to highest.</p>",
+           f'<details><summary>Everything that the campaign says</summary><div class="table campaign">{page.from_markdown(folder / "summary.md")}</div></details>']
     for path in sorted(folder.glob("*.svg")):
         what = "Means over what was varied." if path.stem == "response" else \
             f"{path.stem.replace('_', ' ').capitalize()}: share of granules that break below a stress; a Weibull distribution is a straight line. Band: 95 % interval of each share."

@@ -143,7 +143,8 @@ class Page(unittest.TestCase):
                 shutil.copy(sample, folder / stage / f"{stage[0]}{k}.h5")
             rows.append(f"d{k},{k},100.123456,{stress},s{k},0")
         (folder / "granules.csv").write_text("# my.toml\n" + "\n".join(rows) + "\n")
-        (folder / "summary.md").write_text("# my\n\n6 granules at 1 point of my.toml; by the programs of commit abc.\n\n| quantity | mean |\n|---|---|\n| d_c | 77.7 (70 to 80) |\n\nwords below\n")
+        (folder / "summary.md").write_text("# my\n\n6 granules at 1 point of my.toml; by the programs of commit abc.\n\n| peclet | quantity | granules | mean | spread | 10 % | 50 % | sampling error | numerical error |\n"
+                                           "|---|---|---|---|---|---|---|---|---|\n| 3 | d_c | 6 | 77.7 (70 to 80) | 4 | 71 | 78 | 2 % | 0.1 % |\n\nwords below\n")
         (folder / "campaign.toml").write_text("seeds = 6 # as given\n")
         (folder / "critical_stress_worst.svg").write_text("<svg><g id='drawn'/></svg>")
         self.assertEqual({str(path.relative_to(folder)): name for path, name in of_campaign.shown(folder).items()},
@@ -151,7 +152,8 @@ class Page(unittest.TestCase):
                           "stress/s0.h5": "middle granule, loaded", "dry/d2.h5": "strongest granule, dried", "stress/s2.h5": "strongest granule, loaded"})
         report.made([folder], TOOL, self.folder / "campaign.html")
         text = (self.folder / "campaign.html").read_text(encoding="utf-8")
-        for there in ("77.7 (70 to 80)", "words below", "id='drawn'", "commit abc", "CAMPAIGN=my.toml", "seeds = 6 # as given", "<td>100.1</td>",
+        self.assertIn("<td>3</td><td>d_c</td><td>6</td><td>77.7 (70 to 80)</td><td>4</td><td>78</td><td>2 %</td><td>0.1 %</td>", text)
+        for there in ("<td>77.7 (70 to 80)</td><td>4</td><td>71</td>", "words below", "id='drawn'", "commit abc", "CAMPAIGN=my.toml", "seeds = 6 # as given", "<td>100.1</td>",
                       "<h2>weakest granule, dried: dried droplet</h2>"):
             self.assertIn(there, text)
         self.assertNotIn("Side by side", text)  # chosen granules have no mean
