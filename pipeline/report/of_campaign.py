@@ -42,7 +42,7 @@ def table(folder):
     columns = [name for name in rows[0] if not name.endswith(("sha256", "[relative]", "_id"))]
     digits = lambda text: f"{float(text):.4g}" if "." in text or "e" in text else text
     cells = [[row[name] if name in ("id", "seed") or not row[name].lstrip("-")[:1].isdigit() else digits(row[name]) for name in columns] for row in rows]
-    return f'<div class="table">{page.as_html(columns, cells)}</div>'
+    return page.as_html(columns, cells)
 
 
 # Of summary.md, in the order of the page; the keys that were varied stand before them.
@@ -54,7 +54,7 @@ def headline(folder):
     rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
     kept = [*range(rows[0].index("quantity")), *(rows[0].index(name) for name in HEADLINE)]
     head, _, *rest = [[row[k] for k in kept] for row in rows]
-    return f'<div class="table campaign">{page.as_html(head, rest)}</div>'
+    return f'<div class="campaign">{page.as_html(head, rest)}</div>'
 
 
 def parts(folder):
@@ -62,7 +62,7 @@ def parts(folder):
     out = [f"<h2>Campaign {html.escape(name)}</h2>", headline(folder),
            "<p>In brackets: 95 % intervals; spread: standard deviation between granules; 50 %: median. Sampling error: half of the interval of the mean. "
            "Numerical error: mean of what the runs state. A question mark: too few granules to bound it on that side; two granules stand as lowest to highest.</p>",
-           f'<details><summary>Everything that the campaign says</summary><div class="table campaign">{page.from_markdown(folder / "summary.md")}</div></details>']
+           f'<details><summary>Everything that the campaign says</summary><div class="campaign">{page.from_markdown(folder / "summary.md")}</div></details>']
     for path in sorted(folder.glob("*.svg")):
         what = "Means over what was varied." if path.stem == "response" else \
             f"{path.stem.replace('_', ' ').capitalize()}: share of granules that break below a stress; a Weibull distribution is a straight line. Band: 95 % interval of each share."

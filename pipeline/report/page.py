@@ -9,12 +9,12 @@ import whole
 STYLE = """body{font:16px/1.5 system-ui,sans-serif;max-width:62rem;margin:2rem auto;padding:0 1rem;color:#222;background:#fff}
 table{border-collapse:collapse;margin:1rem 0;font-size:.85rem}td,th{border-bottom:1px solid #ccc;padding:.25rem .6rem;text-align:right}
 th{border-bottom:2px solid #444}td:first-child,th:first-child{text-align:left}img,svg{max-width:100%;height:auto}
-figure{margin:1rem 0}figcaption{font-size:.85rem;color:#444}.missing{color:#a00}"""
+figure{margin:1rem 0}figcaption{font-size:.85rem;color:#444}.missing{color:#a00}.table{overflow-x:auto}h1,h2{overflow-wrap:anywhere}"""
 
 
 def as_html(head, rows):
     cell = lambda tag, values: "<tr>" + "".join(f"<{tag}>{html.escape(str(v))}</{tag}>" for v in values) + "</tr>"
-    return "<table>" + cell("th", head) + "".join(cell("td", row) for row in rows) + "</table>"
+    return '<div class="table"><table>' + cell("th", head) + "".join(cell("td", row) for row in rows) + "</table></div>"
 
 
 def from_markdown(path):

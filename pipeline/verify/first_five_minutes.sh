@@ -42,7 +42,7 @@ with Browser() as browser:
 EOF
 }
 
-make -C pipeline "$@" > ../first.log 2> ../first.err || { tail -n 30 ../first.err >&2 && exit 1; }
+make -C pipeline "$@" > ../first.log 2> ../first.err || { tail -n 30 ../first.log ../first.err >&2 && exit 1; }
 said ../first.log paper
 tail -n 12 ../first.log
 passed "the first command"
