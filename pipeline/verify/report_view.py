@@ -112,7 +112,7 @@ MIDDLE = """(() => { const c = document.getElementById('canvas'), r = c.getBound
 d.width = w; d.height = c.height; const x = d.getContext('2d'); x.drawImage(c, 0, 0); const p = x.getImageData(0, 0, w, c.height).data, was = window.before;
 window.before = p; let best = null, least = 1e9; const white = (q, k) => q[k] + q[k + 1] + q[k + 2] > 750;
 for (let v = 0; v < c.height; ++v) for (let u = 0; u < w; ++u) { const k = 4 * (v * w + u), away = Math.hypot(u - w / 2, v - c.height / 2);
-if (p[k] + p[k + 1] + p[k + 2] < 600 && away < least && (!was || white(was, k))) { least = away; best = [u, v]; } }
+if (p[k] + p[k + 1] + p[k + 2] < 720 && away < least && (!was || white(was, k))) { least = away; best = [u, v]; } }
 return best && [r.left + (best[0] + 0.5) * r.width / w, r.top + (best[1] + 0.5) * r.height / c.height]; })()"""
 
 
