@@ -1,17 +1,12 @@
 // When a rigid granule, carried along many histories of the velocity gradient, is first loaded beyond its strength.
 #pragma once
 
-#include <functional>
+#include <cstdint>
 
+#include "common/flow/tracks.hpp"
 #include "rigidstress/history.hpp"
 
 namespace crumble::rigidstress {
-
-// Histories that may be too many to be held: each is made when it is asked for, by one thread at a time.
-struct Tracks {
-  std::size_t size = 0;
-  std::function<GradientHistory(std::size_t)> read;
-};
 
 // Brittle breakup without memory: the granule breaks at the first instant at which a contact bears its pull-off force
 // (Babler, Biferale & Lanotte 2012, Phys. Rev. E 85, 025301). Everything scales with the viscosity: one path through

@@ -3,13 +3,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <filesystem>
 #include <stdexcept>
 
 #include "common/io/plausible.hpp"
 #include "common/io/shared_parameters.hpp"
 #include "common/io/surface_forces_parameters.hpp"
-#include "rigidstress/track_files.hpp"
 
 namespace crumble::rigidstress {
 
@@ -32,6 +30,43 @@ Section hydrodynamics() {
   section.parameters.push_back(
       P::integer("order", "multipole: degree L of the moments").at_least(1).at_most(20).by_default(standard.order));
   section.parameters.push_back(P::real("memory", "B", "Largest matrix allowed").above(0).by_default(standard.memory));
+  return section;
+}
+
+Section flow() {
+  Section section{
+      "flow",
+      "Which flows; each costs milliseconds and no factorisation.",
+      {P::flag("elongation", "Planar elongation, worst and settled orientation (paper, 3.3)").by_default(true),
+       P::flag("shear", "Simple shear, tumbling orbits (paper, 3.4)").by_default(true),
+       P::flag("uniaxial", "Uniaxial extension").by_default(false),
+       P::flag("biaxial", "Biaxial extension").by_default(false)}};
+  for (Parameter& p : history_parameters("for first exits over the strength"))
+    section.parameters.push_back(std::move(p));
+  for (const Parameter& p :
+       {P::integer("starts", "Elongation: evenly spread orientations from which the agglomerate settles")
+            .at_least(1)
+            .at_most(100000)
+            .by_default(64),
+        P::integer("orbits",
+                   "Shear and history: evenly spread orientations to start from; 128 give the mean over all to 2 %")
+            .at_least(1)
+            .at_most(100000)
+            .by_default(128),
+        P::list("orientation", "",
+                "Shear and history: one orbit from here instead, a quaternion [w, x, y, z] that turns the axes of the "
+                "file into those of the flow; [1, 0, 0, 0] as it lies")
+            .optional(),
+        P::real("strain", "", "Shear: duration in 1/gamma_dot; one turn takes 4 pi or longer")
+            .above(0)
+            .at_most(1e6)
+            .by_default(100),
+        P::real("sample", "", "Shear: interval between instants, in 1/gamma_dot").above(0).at_most(1).by_default(0.1),
+        P::real("orientation_tolerance", "", "Error of the orientation in one step, rad")
+            .above(0)
+            .at_most(1e-2)
+            .by_default(1e-8)})
+    section.parameters.push_back(p);
   return section;
 }
 
@@ -68,42 +103,8 @@ const ParameterTable& stress_parameters() {
         P::flag("estimate", "A fixed multipole order: also compute the lower ones that the error estimate needs")
             .by_default(true)
             .formerly("hydrodynamics.estimate")}},
-      {"flow",
-       "Which flows; each costs milliseconds and no factorisation.",
-       {P::flag("elongation", "Planar elongation, worst and settled orientation (paper, 3.3)").by_default(true),
-        P::flag("shear", "Simple shear, tumbling orbits (paper, 3.4)").by_default(true),
-        P::flag("uniaxial", "Uniaxial extension").by_default(false),
-        P::flag("biaxial", "Biaxial extension").by_default(false),
-        P::text(
-            "history",
-            "CSV file of time [s] and nine components of the velocity gradient [1/s], as seen from the scene; or many: "
-            "a folder of such files, or an HDF5 file of tracks, for first exits over the strength")
-            .optional(),
-        P::real("largest_history_step", "", "A longer strain between two rows of the history is refused")
-            .above(0)
-            .by_default(1),
-        P::integer("starts", "Elongation: evenly spread orientations from which the agglomerate settles")
-            .at_least(1)
-            .at_most(100000)
-            .by_default(64),
-        P::integer("orbits",
-                   "Shear and history: evenly spread orientations to start from; 128 give the mean over all to 2 %")
-            .at_least(1)
-            .at_most(100000)
-            .by_default(128),
-        P::list("orientation", "",
-                "Shear and history: one orbit from here instead, a quaternion [w, x, y, z] that turns the axes of the "
-                "file into those of the flow; [1, 0, 0, 0] as it lies")
-            .optional(),
-        P::real("strain", "", "Shear: duration in 1/gamma_dot; one turn takes 4 pi or longer")
-            .above(0)
-            .at_most(1e6)
-            .by_default(100),
-        P::real("sample", "", "Shear: interval between instants, in 1/gamma_dot").above(0).at_most(1).by_default(0.1),
-        P::real("orientation_tolerance", "", "Error of the orientation in one step, rad")
-            .above(0)
-            .at_most(1e-2)
-            .by_default(1e-8)}},
+      flow(),
+
       {"output", "What the run keeps.", {checkpoint_interval_parameter()}},
       {"run", "The run itself.", {P::integer("seed", "Names the random orientations").at_least(0).by_default(1)}}};
   return table;
@@ -132,23 +133,6 @@ std::vector<Quaternion> starts(const Scene& scene, std::uint64_t seed) {
 }
 
 }  // namespace
-
-namespace {
-
-std::string history_name(const Scene& scene) {
-  return (std::filesystem::path(scene.file()).parent_path() / scene.text("flow.history")).string();
-}
-
-}  // namespace
-
-std::vector<ReadFile> history_files(const Scene& scene) {
-  if (!scene.is_set("flow.history")) return {};
-  const std::string name = history_name(scene);
-  if (!is_many_tracks(name)) return {{"the history", name}};
-  std::vector<ReadFile> files;
-  for (const std::string& file : track_files(name)) files.push_back({"a track", file});
-  return files;
-}
 
 StressScene stress_scene(const Scene& scene) {
   StressScene s;
@@ -189,17 +173,11 @@ StressScene stress_scene(const Scene& scene) {
   if (s.orbit.strain > most * s.orbit.sample)
     throw scene.error("flow.sample", fmt::format("makes {:.2g} instants of every orbit; at least {:g} makes {:g}",
                                                  s.orbit.strain / s.orbit.sample, s.orbit.strain / most, most));
-  if (scene.is_set("flow.history")) {
-    const std::string name = history_name(scene);
-    const double step = scene.real("flow.largest_history_step");
-    if (is_many_tracks(name)) {
-      if (scene.is_set("flow.orientation"))
-        throw scene.error("flow.orientation", "many tracks start from as many random orientations");
-      s.tracks = read_tracks(name, step);
-    } else {
-      s.history = GradientHistory::read(name, step);
-    }
-  }
+  FlowHistory history = flow_history_in(scene);
+  if (history.many && scene.is_set("flow.orientation"))
+    throw scene.error("flow.orientation", "many tracks start from as many random orientations");
+  s.history = std::move(history.one);
+  s.tracks = std::move(history.many);
   return s;
 }
 

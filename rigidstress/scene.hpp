@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "common/agglomerate/rescaled.hpp"
-#include "common/io/output_file.hpp"
+#include "common/flow/history_parameters.hpp"
 #include "common/io/parameters.hpp"
 #include "common/io/service_load.hpp"
 #include "common/rigid/joint.hpp"
@@ -40,9 +40,6 @@ struct StressScene {
 
 // Reads the history file, if there is one, named as seen from the scene's folder.
 StressScene stress_scene(const Scene& scene);
-
-// The files that the scene itself names.
-std::vector<ReadFile> history_files(const Scene& scene);
 
 // Two resolved scenes with the same answer here have the same response of the same file: all sections but fluid,
 // flow, output and run.

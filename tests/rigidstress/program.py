@@ -405,6 +405,20 @@ class Program(unittest.TestCase):
         exits = numpy.reshape(found["tracks"]["exits"], (levels, intervals)).sum(1) + found["tracks"]["born_above"]
         self.assertTrue(all(a <= b for a, b in zip(exits, exits[1:])))  # a stronger flow breaks no fewer
         self.assertEqual((exits[0], exits[-1]), (0, 12))
+        # One of them alone is the history of that file.
+        alone = []
+        for name, settings in (("tracks.h5", ["--set", "flow.track=3"]), ("tracks", ["--set", "flow.track=3"]), ("tracks/002.csv", [])):
+            scene.write_text(f'[hydrodynamics]\nmethod = "fts"\n[flow]\nelongation = false\nshear = false\norbits = 2\nhistory = "{name}"\n')
+            report = self.folder / "alone.json"
+            run = self.run_it(scene, granule, "-o", self.folder / "alone.h5", "--report", report, "--overwrite", *settings)
+            self.assertEqual(run.returncode, 0, run.stderr)
+            alone.append(json.loads(report.read_text())["results"]["history"]["use_of_pull_off"])
+        numpy.testing.assert_allclose(alone, alone[0], rtol=1e-9)
+        for number, words in (("13", "holds 12 tracks"), ("0", "must be")):
+            scene.write_text('[flow]\nhistory = "tracks.h5"\n')
+            run = self.run_it(scene, granule, "-o", self.folder / "no.h5", "--set", f"flow.track={number}")
+            self.assertEqual(run.returncode, 2)
+            self.assertIn(words, run.stderr)
 
     def test_tracks_that_are_not_tracks_are_refused_by_name(self):
         granule = self.agglomerate([[0, 0, 0], [200, 0, 0]])

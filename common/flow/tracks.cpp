@@ -1,4 +1,4 @@
-#include "rigidstress/track_files.hpp"
+#include "common/flow/tracks.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include "common/io/errors.hpp"
 #include "common/io/hdf5.hpp"
 
-namespace crumble::rigidstress {
+namespace crumble {
 
 namespace {
 
@@ -75,4 +75,4 @@ Tracks read_tracks(const std::string& name, double largest_step) {
   return {files.size(), [files, largest_step](std::size_t k) { return GradientHistory::read(files[k], largest_step); }};
 }
 
-}  // namespace crumble::rigidstress
+}  // namespace crumble

@@ -1,12 +1,19 @@
 // Many histories of the velocity gradient: a folder of CSV files, or one HDF5 file.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
-#include "rigidstress/first_exit.hpp"
+#include "common/flow/gradient_history.hpp"
 
-namespace crumble::rigidstress {
+namespace crumble {
+
+// Histories that may be too many to be held: each is made when it is asked for, by one thread at a time.
+struct Tracks {
+  std::size_t size = 0;
+  std::function<GradientHistory(std::size_t)> read;
+};
 
 // Whether this names many histories rather than one CSV file.
 bool is_many_tracks(const std::string& name);
@@ -20,4 +27,4 @@ std::vector<std::string> track_files(const std::string& name);
 // file and track or line.
 Tracks read_tracks(const std::string& name, double largest_step);
 
-}  // namespace crumble::rigidstress
+}  // namespace crumble
