@@ -44,14 +44,14 @@ void Breaking::finish() {
 void Breaking::put_frame() {
   Progression& p = saved_.progression;
   append_frame(*frames_, *run_, job_.scene);
-  p.next_frame = job_.scene.frame_interval * (std::floor(run_->stress() / job_.scene.frame_interval) + 1);
+  p.next_frame = job_.scene.frame_interval * (std::floor(run_->now().measure / job_.scene.frame_interval) + 1);
   p.last_frame = run_->statistics().steps;
 }
 
 void Breaking::put_sample() {
   Progression& p = saved_.progression;
   append_sample(*frames_, *run_);
-  p.next_sample = job_.scene.sample_interval * (std::floor(run_->stress() / job_.scene.sample_interval) + 1);
+  p.next_sample = job_.scene.sample_interval * (std::floor(run_->now().measure / job_.scene.sample_interval) + 1);
   p.last_sample = run_->statistics().steps;
 }
 
@@ -63,14 +63,19 @@ void Breaking::record() {
     put_frame();
     p.next_frame = job_.scene.frame_interval;
   }
-  if (steps > p.last_sample && (run_->stress() >= p.next_sample || run_->finished())) put_sample();
-  if (steps > p.last_frame && (run_->stress() >= p.next_frame || run_->at_stage_end() || run_->finished())) put_frame();
+  if (steps > p.last_sample && (run_->now().measure >= p.next_sample || run_->finished())) put_sample();
+  if (steps > p.last_frame && (run_->now().measure >= p.next_frame || run_->at_stage_end() || run_->finished()))
+    put_frame();
 }
 
 void Breaking::between_steps() {
-  keeper_.between_steps([&] {
-    return run_->finished() ? std::string("during the error estimate") : fmt::format("at {:g} Pa", run_->stress());
-  });
+  keeper_.between_steps([&] { return run_->finished() ? std::string("during the error estimate") : "at " + where(); });
+}
+
+std::string Breaking::where() const {
+  const Instant now = run_->now();
+  return job_.scene.protocol.has_history() ? fmt::format("{:.4g} s, {:.3g} Pa", now.time, now.stress)
+                                           : fmt::format("{:.4g} Pa", now.stress);
 }
 
 void Breaking::advance() {
@@ -79,15 +84,15 @@ void Breaking::advance() {
   run_->step();
   if (!limit_before && run_->breakup().first_limit && job_.scene.is(IntegratorKind::implicit))
     job_.progress.say(fmt::format("rigid but for elastic contacts up to {:.1f} Pa ({} steps); from here it is flexible",
-                                  *run_->breakup().first_limit, run_->statistics().rigid_steps));
+                                  run_->breakup().first_limit->stress, run_->statistics().rigid_steps));
   const ExpectedCost& cost = job_.cost;
   const std::optional<StepRange> steps =
       cost.steps.most > 0 ? std::optional(StepRange{cost.steps.least, cost.steps.most}) : std::nullopt;
   job_.progress.update(
       run_->fraction(), run_->statistics().steps,
       [&] {
-        return fmt::format("step {}, {:.3g} Pa, {} contacts, largest tension {:.2f} F_po", run_->statistics().steps,
-                           run_->stress(), run_->observation().contacts, run_->observation().network.max_use);
+        return fmt::format("step {}, {}, {} contacts, largest tension {:.2f} F_po", run_->statistics().steps, where(),
+                           run_->observation().contacts, run_->observation().network.max_use);
       },
       steps);
 }
@@ -96,7 +101,7 @@ void Breaking::run_to_the_end() {
   for (record(); !run_->finished(); record()) advance();
   if (!companion_) return;
   job_.progress.in_hand("error estimate");
-  saved_.progression.companion = companion_->critical_stress([this] { between_steps(); });
+  saved_.progression.companion = companion_->outcome([this] { between_steps(); });
   companion_.reset();
 }
 
@@ -110,9 +115,11 @@ bool Breaking::is_uncertain() const {
 // The run with half of the tolerance; the one before is its companion.
 void Breaking::begin_anew() {
   Progression& p = saved_.progression;
-  job_.progress.say(fmt::format("{:.1f} Pa, with doubled tolerance {:.1f} Pa: once more with half of it",
-                                *run_->breakup().severed, *p.companion));
-  p = {.companion = run_->breakup().severed, .halvings = p.halvings + 1};
+  const double outcome = run_->breakup().severed->measure;
+  const char* unit = job_.scene.protocol.has_history() ? "s" : "Pa";
+  job_.progress.say(fmt::format("{:.5g} {}, with doubled tolerance {:.5g} {}: once more with half of it", outcome, unit,
+                                *p.companion, unit));
+  p = {.companion = outcome, .halvings = p.halvings + 1};
   run_.reset();
   run_ = make_run();
   frames_->begin_anew();

@@ -44,6 +44,7 @@ class Breaking {
   void run_to_the_end();
   void advance();
   void between_steps();
+  std::string where() const;  // it stands
   void put_frame();
   void put_sample();
   void record();

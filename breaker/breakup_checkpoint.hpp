@@ -11,9 +11,9 @@ namespace crumble::breaker {
 
 // What main keeps beside the run.
 struct Progression {
-  double next_sample = 0, next_frame = 0;         // Pa
+  double next_sample = 0, next_frame = 0;         // Pa; along a history, s
   std::int64_t last_sample = 0, last_frame = -1;  // steps at which they were written
-  std::optional<double> companion;  // critical stress of the same run with coarser control, Pa; infinite: nothing broke
+  std::optional<double> companion;  // outcome of the same run with coarser control; infinite: nothing broke
   std::int64_t halvings = 0;        // of the tolerance, since the error was too large
 
   void fields(SavedFields& f);

@@ -53,7 +53,7 @@ SavedState Companion::state() {
   return state_;
 }
 
-double Companion::critical_stress(const std::function<void()>& between_steps) {
+double Companion::outcome(const std::function<void()>& between_steps) {
   if (thread_.joinable()) {
     for (; !over_; std::this_thread::sleep_for(std::chrono::milliseconds(1))) between_steps();
     thread_.join();
@@ -62,7 +62,8 @@ double Companion::critical_stress(const std::function<void()>& between_steps) {
     begin();
     for (; !run_->finished(); run_->step()) between_steps();
   }
-  return run_->breakup().severed.value_or(std::numeric_limits<double>::infinity());
+  const auto& severed = run_->breakup().severed;
+  return severed ? severed->measure : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace crumble::breaker

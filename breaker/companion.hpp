@@ -25,9 +25,9 @@ class Companion {
   // The state after the step in which it is, or after an earlier one if that takes longer than a moment.
   SavedState state();
 
-  // Waits. Critical stress, Pa; infinite where nothing broke. `between_steps` is called now and then meanwhile, and may
-  // throw.
-  double critical_stress(const std::function<void()>& between_steps);
+  // Waits. Measure of the breakup: critical stress, Pa, or its time along a history, s; infinite where nothing broke.
+  // `between_steps` is called now and then meanwhile, and may throw.
+  double outcome(const std::function<void()>& between_steps);
 
  private:
   BreakerScene scene_;

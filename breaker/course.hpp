@@ -9,9 +9,16 @@
 
 namespace crumble::breaker {
 
+// When something happened, and what the run goes by: in a flow that grows its stress, along a history the time.
+struct Instant {
+  double time = 0, stress = 0;  // s, Pa
+  double measure = 0;           // one of them
+  bool operator==(const Instant&) const = default;
+};
+
 // Size and shape, and what the flow does to the contacts, at one instant.
 struct Observation {
-  double stress = 0;  // Pa
+  Instant at;
   // Of the largest piece that still moves, m.
   double radius_of_gyration = 0;
   std::array<double, 3> semi_axes{};
@@ -21,11 +28,11 @@ struct Observation {
   NetworkState network;
 };
 
-// What the report says about the breakup itself. Stresses in Pa; nothing where it has not happened.
+// What the report says about the breakup itself; nothing where it has not happened.
 struct Breakup {
-  std::optional<double> first_limit, first_rupture;  // a contact at any limit; a contact lost
-  std::optional<double> severed;  // the last load path to what was lost gave way: the critical stress
-  std::optional<double> lost;     // it was beyond reach
+  std::optional<Instant> first_limit, first_rupture;  // a contact at any limit; a contact lost
+  std::optional<Instant> severed;  // the last load path to what was lost gave way: the critical stress
+  std::optional<Instant> lost;     // it was beyond reach
   std::int64_t contacts_initial = 0;
   Observation initial, before;          // at the start of the flow, and whole for the last time
   std::vector<std::int64_t> fragments;  // sizes at the end, descending
@@ -33,33 +40,32 @@ struct Breakup {
 
 class Course {
  public:
-  // pieces, stress: at the start.
-  Course(const Particles& particles, const Pieces& pieces, double stress);
+  Course(const Particles& particles, const Pieces& pieces, const Instant& start);
 
   const Observation& observation() const { return now_; }
   const Breakup& breakup() const { return breakup_; }
   const std::vector<Event>& events() const { return events_; }
   double max_use() const { return max_use_; }  // largest tension over pull-off force of any contact so far
 
-  // Observes the pieces under a stress. What is not yet broken is kept, once every thousandth of the stress.
-  void observe(const Pieces& pieces, double stress);
-  // Takes over the events of a piece. True if a contact was lost.
-  bool collect_events(Piece& piece);
-  // Who is in the largest fragment of the piece, and at which stress others left it.
-  void note_fragments(const Piece& piece, double stress);
+  // What is not yet broken is kept, once every thousandth of the measure.
+  void observe(const Pieces& pieces, const Instant& now);
+  // Takes over the events of a piece; by_time: time is the measure. True if a contact was lost.
+  bool collect_events(Piece& piece, bool by_time);
+  // Who is in the largest fragment of the piece, and when others left it.
+  void note_fragments(const Piece& piece, const Instant& now);
   // Fragments were lost: their sizes, in the whole, are those at the end as far as is known.
-  void lose(double time, double stress, const std::vector<std::int64_t>& sizes);
+  void lose(const Instant& now, const std::vector<std::int64_t>& sizes);
   void set_fragments(std::vector<std::int64_t> sizes) { breakup_.fragments = std::move(sizes); }
 
   // As many particles as make a breakup have left `kept`. The critical stress is that at which the decisive one had.
-  void end_with_breakup(const Piece& kept, std::size_t particles_lost, double stress);
+  void end_with_breakup(const Piece& kept, std::size_t particles_lost, const Instant& now);
   void end_unbroken();
 
   void fields(SavedFields& f);
 
  private:
   const Particles& particles_;
-  std::vector<double> severed_at_;  // stress at which each particle left the largest fragment; infinite: it is in it
+  std::vector<Instant> severed_at_;  // when each particle left the largest fragment; at infinity: it is in it
   std::vector<Event> events_;
   std::vector<Observation> past_;
   Observation now_;
@@ -67,7 +73,7 @@ class Course {
   double max_use_ = 0;
 
   void note(Event event);
-  void find_whole_before(double stress);
+  void find_whole_before(double measure);
 };
 
 }  // namespace crumble::breaker

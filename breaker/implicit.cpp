@@ -71,9 +71,11 @@ void Implicit::renew_hydrodynamics() {
 bool Implicit::step(double latest_time) {
   const double left = latest_time - frame_.time;
   double dt = next_dt_ < left ? next_dt_ : left;
+  // Corners of a history are many: two equal steps to one, not a long and a short one from which to grow again.
+  if (protocol_.has_history() && next_dt_ < left && left < 2 * next_dt_) dt = 0.5 * left;
   const double start = dt;
   for (int tries = 0; tries < 80; ++tries) {
-    const Attempt result = attempt(dt);
+    const Attempt result = attempt(dt, dt < left ? frame_.time + dt : latest_time);
     if (result.accepted) return result.changed;
     ++statistics_.rejected;
     dt = result.retry;
@@ -114,10 +116,9 @@ double Implicit::local_error() const {
   return error;
 }
 
-Implicit::Attempt Implicit::attempt(double dt) {
+Implicit::Attempt Implicit::attempt(double dt, double time) {
   predict(dt);
   renew_hydrodynamics();
-  const double time = frame_.time + dt;
   Quaternion rotation = rotation_;
   double turn_step = turn_step_ > 0 ? turn_step_ : dt;
   TurningBody(hydrodynamics_.turning(), 1e-9).advance(rotation, frame_.time, time, turn_step, [&](double t) {

@@ -52,7 +52,7 @@ class Implicit : public Integrator {
     bool accepted, changed;
     double retry;  // s
   };
-  Attempt attempt(double dt);
+  Attempt attempt(double dt, double time);
   double event_step() const;
   void predict(double dt);
   double local_error() const;

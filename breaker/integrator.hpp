@@ -54,7 +54,9 @@ class Integrator {
   bool move(const Eigen::VectorXd& q, double time);
 
   double stress(double time) const { return protocol_.stress_before(time); }
-  Eigen::Matrix3d gradient_at(double time) const { return stress(time) / model_.viscosity * model_.gradient; }
+  Eigen::Matrix3d gradient_at(double time) const {
+    return protocol_.has_history() ? protocol_.gradient(time) : stress(time) / model_.viscosity * model_.gradient;
+  }
 
   const BreakupModel& model_;
   const Protocol& protocol_;

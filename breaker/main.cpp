@@ -7,12 +7,14 @@
 #include "breaker/expected_cost.hpp"
 #include "breaker/result.hpp"
 #include "common/agglomerate/morphology.hpp"
+#include "common/flow/history_parameters.hpp"
 #include "common/io/command_line.hpp"
 #include "common/io/earlier_result.hpp"
 #include "common/io/granule.hpp"
 #include "common/io/machine.hpp"
 #include "common/io/output_lock.hpp"
 #include "common/io/program.hpp"
+#include "common/io/sha256.hpp"
 #include "common/io/surface_forces_parameters.hpp"
 
 using namespace crumble;
@@ -36,6 +38,13 @@ ProgramDescription description() {
           true};
 }
 
+// A breakup belongs to the agglomerate and the history as they were.
+CheckpointOwner checkpoint_owner(const Scene& text, const Provenance& provenance) {
+  CheckpointOwner owner{"breaker", provenance.version, text.resolved() + "\n# of " + provenance.parent_sha256};
+  for (const ReadFile& file : history_files(text)) owner.scene += "\n# and " + sha256_of_file(file.name);
+  return owner;
+}
+
 int break_up(int argc, const char* const* argv) {
   const CommandLine line = parse_command_line(description(), argc, argv);
   if (line.answer) {
@@ -49,6 +58,8 @@ int break_up(int argc, const char* const* argv) {
   inherit(text, parent);
   BreakerScene scene = breaker_scene(text);
   const std::optional<ServiceLoad> at = service_load_at(line.at, scene.liquid);
+  if (at && scene.protocol.has_history())
+    throw InputError("--at asks whether a strength suffices; along flow.history the run itself says whether it breaks");
   const int threads = line.threads > 0 ? line.threads : default_threads(omp_get_max_threads(), this_machine());
   omp_set_num_threads(1);  // beside each other the run and its companion use two cores
   const Provenance provenance = make_provenance("breaker", {argv, argv + argc}, 0, "none", input);
@@ -79,10 +90,9 @@ int break_up(int argc, const char* const* argv) {
     return 0;
   }
 
-  const OwnedOutputs owned(line.written, {});
+  const OwnedOutputs owned(line.written, history_files(text));
   if (!line.overwrite) require_no_other_result(line.output, provenance, text.resolved());
-  const OutputCheckpoint checkpoint(
-      line.output, {"breaker", provenance.version, text.resolved() + "\n# of " + provenance.parent_sha256});
+  const OutputCheckpoint checkpoint(line.output, checkpoint_owner(text, provenance));
   if (line.restart) checkpoint.require();
   if (checkpoint.found()) progress.say("resuming from " + checkpoint.path());
   if (const std::string left = checkpoint.leftovers(); !left.empty()) progress.say(left);

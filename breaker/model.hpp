@@ -15,7 +15,8 @@ struct BreakupModel {
   double viscosity = 1;  // mu, Pa s
   HydroModel hydro{Rung::fts_relative_lubrication};
   double weak_stress = 2;  // Pa; a flow below it is too weak to matter: no step is shorter for it
-  Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();  // of the flow at unit shear rate sqrt(2 E:E); zero: at rest
+  // Of the flow at unit shear rate sqrt(2 E:E); zero: at rest. Along a history, of the flow in which strength is said.
+  Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero();
   std::optional<SurfaceForces> surface_forces;
 };
 

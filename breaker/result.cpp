@@ -29,7 +29,7 @@ void append_frame(FrameLog& frames, const BreakupRun& run, const BreakerScene& s
 void append_sample(FrameLog& frames, const BreakupRun& run) {
   const Observation& l = run.observation();
   frames.sample(run.statistics().steps, run.time(),
-                {{"flow_stress", "Pa", l.stress},
+                {{"flow_stress", "Pa", l.at.stress},
                  {"radius_of_gyration", "nm", l.radius_of_gyration},
                  {"semi_axis_largest", "nm", l.semi_axes[0]},
                  {"semi_axis_middle", "nm", l.semi_axes[1]},
@@ -44,7 +44,7 @@ void append_sample(FrameLog& frames, const BreakupRun& run) {
 
 std::optional<double> relative_error(const Breakup& b, std::optional<double> companion) {
   if (!b.severed || !companion || std::isinf(*companion)) return std::nullopt;
-  return std::abs(*companion / *b.severed - 1);
+  return std::abs(*companion / b.severed->measure - 1);
 }
 
 namespace {
@@ -59,19 +59,38 @@ std::string how_estimated(const BreakerScene& scene, const Breakup& b, std::opti
 
 }  // namespace
 
+namespace {
+
+// At unit shear rate; of a history at the breakup, or at its end.
+Eigen::Matrix3d unit_gradient_of(const BreakupRun& run, const BreakerScene& scene) {
+  if (!scene.protocol.has_history()) return scene.model.gradient;
+  const auto& severed = run.breakup().severed;
+  const Eigen::Matrix3d gradient = scene.protocol.gradient(severed ? severed->time : run.time());
+  const double rate = rate_of(gradient);
+  return rate > 0 ? Eigen::Matrix3d(gradient / rate) : gradient;
+}
+
+}  // namespace
+
 void write_rest(AgglomerateWriter& writer, const BreakupRun& run, const BreakerScene& scene, const Start& start,
                 std::optional<double> companion) {
-  if (run.breakup().severed) writer.put("/breakup/critical_stress", *run.breakup().severed);
+  const bool along_history = scene.protocol.has_history();
+  if (const auto& severed = run.breakup().severed) {
+    writer.put(along_history ? "/breakup/stress" : "/breakup/critical_stress", severed->stress);
+    writer.put("/breakup/time", severed->time);
+  }
   if (const auto error = relative_error(run.breakup(), companion))
-    writer.put("/errors/critical_stress", *error, how_estimated(scene, run.breakup(), companion));
+    writer.put(along_history ? "/errors/breakup_time" : "/errors/critical_stress", *error,
+               how_estimated(scene, run.breakup(), companion));
   writer.put("/closing/residual_rms", start.self_stress.rms);
   writer.put("/closing/residual_max", start.self_stress.max);
   writer.put("/closing/lost_contacts", static_cast<double>(start.lost));
   writer.put("/closing/scale", start.scale);
-  writer.put_attribute("/flow@type", name_of(scene.flow));
+  writer.put_attribute("/flow@type", scene.flow_name());
   std::vector<double> gradient;
+  const Eigen::Matrix3d unit = unit_gradient_of(run, scene);
   for (int r = 0; r < 3; ++r)
-    for (int c = 0; c < 3; ++c) gradient.push_back(scene.model.gradient(r, c));
+    for (int c = 0; c < 3; ++c) gradient.push_back(unit(r, c));
   writer.put<double>("/flow/gradient", gradient, {3, 3});
 
   std::vector<double> time, stress;
@@ -122,21 +141,40 @@ void fill_report(Report& report, const BreakerScene& scene, const Start& start, 
                  std::optional<double> companion) {
   const Breakup& b = run.breakup();
   const IntegratorStatistics s = run.statistics();
+  const bool along_history = scene.protocol.has_history();
   const auto maybe = [](const std::optional<double>& value) {
     return value ? Report::Value(*value) : Report::Value(nullptr);
   };
-  const auto stress = [&](const std::string& name, const std::string& rate, const std::optional<double>& value) {
-    report.result(name + "_pa", maybe(value));
-    report.result(rate + "_per_s", maybe(value ? std::optional(scene.liquid.shear_rate(*value)) : value));
+  const auto stress = [&](const std::string& name, const std::string& rate, const std::optional<Instant>& value) {
+    report.result(name + "_pa", maybe(value ? std::optional(value->stress) : std::nullopt));
+    report.result(rate + "_per_s", maybe(value ? std::optional(scene.liquid.shear_rate(value->stress)) : std::nullopt));
+  };
+  const auto moment = [&](const std::string& name, const std::optional<Instant>& value) {
+    if (along_history) report.result(name + "_time_s", maybe(value ? std::optional(value->time) : std::nullopt));
   };
   report.steps = s.steps;
-  stress("critical_stress", "critical_shear_rate", b.severed);
+  // What a history does at breakup is no strength: it may have been weaker or stronger just before.
+  if (along_history)
+    stress("breakup_stress", "breakup_shear_rate", b.severed);
+  else
+    stress("critical_stress", "critical_shear_rate", b.severed);
+  moment("breakup", b.severed);
   stress("fragment_lost_stress", "fragment_lost_shear_rate", b.lost);
+  moment("fragment_lost", b.lost);
   stress("rigid_prediction", "rigid_prediction_shear_rate",
-         start.rigid_strength > 0 ? std::optional(start.rigid_strength) : std::nullopt);
+         start.rigid_strength > 0 ? std::optional(Instant{0, start.rigid_strength}) : std::nullopt);
   stress("first_rupture_stress", "first_rupture_shear_rate", b.first_rupture);
+  moment("first_rupture", b.first_rupture);
   stress("first_limit_stress", "first_limit_shear_rate", b.first_limit);
-  report.result("largest_stress_pa", run.stress());
+  moment("first_limit", b.first_limit);
+  if (along_history) {
+    report.result("history_duration_s", scene.protocol.end());
+    report.result("followed_to_s", run.time());
+    report.result("rigid_first_exceeded_s", maybe(scene.protocol.time_of(start.rigid_strength) < scene.protocol.end()
+                                                      ? std::optional(scene.protocol.time_of(start.rigid_strength))
+                                                      : std::nullopt));
+  }
+  report.result("largest_stress_pa", along_history ? scene.protocol.largest_stress(run.time()) : run.stress());
   report.result("contacts_initial", b.contacts_initial);
   report.result("contacts_at_breakup", b.before.contacts);
   report.result("rg_change_relative", change(b.before.radius_of_gyration, b.initial.radius_of_gyration));
@@ -155,7 +193,8 @@ void fill_report(Report& report, const BreakerScene& scene, const Start& start, 
   report.result("closing.made_contacts", static_cast<std::int64_t>(start.made));
   report.result("steps_rejected", s.rejected);
   report.result("newton_iterations", s.newton_iterations);
-  report.error("critical_stress_relative", relative_error(b, companion), how_estimated(scene, b, companion));
+  report.error(along_history ? "breakup_time_relative" : "critical_stress_relative", relative_error(b, companion),
+               how_estimated(scene, b, companion));
   report.error("largest_overlap_over_a", s.largest_overlap, "deepest overlap of two particles at the end of any step");
   fill_left_out(report, scene, run);
 }
@@ -164,19 +203,28 @@ std::string result_text(const BreakupRun& run, const BreakerScene& scene, std::o
   const Breakup& b = run.breakup();
   const auto rate = [&](double stress) { return fmt::format("{:.3g} 1/s", scene.liquid.shear_rate(stress)); };
   std::string text;
-  if (b.severed) {
+  if (b.severed && scene.protocol.has_history()) {
     const auto error = relative_error(b, companion);
-    text += fmt::format("critical stress        {:.1f}{} Pa, {}{}\n", *b.severed,
-                        error ? fmt::format(" ± {:.1f}", *error * *b.severed) : "", rate(*b.severed) + ", ",
-                        breakage(b, scene));
-    text += fmt::format("fragment beyond reach  {:.1f} Pa, {}\n", *b.lost, rate(*b.lost));
+    text += fmt::format("breaks at              {:.6g}{} s of {:.6g} s, at {:.1f} Pa, {}, {}\n", b.severed->time,
+                        error ? fmt::format(" ± {:.2g}", *error * b.severed->time) : "", scene.protocol.end(),
+                        b.severed->stress, rate(b.severed->stress), breakage(b, scene));
+    text += fmt::format("fragment beyond reach  {:.6g} s\n", b.lost->time);
+  } else if (b.severed) {
+    const auto error = relative_error(b, companion);
+    text += fmt::format("critical stress        {:.1f}{} Pa, {}{}\n", b.severed->stress,
+                        error ? fmt::format(" ± {:.1f}", *error * b.severed->stress) : "",
+                        rate(b.severed->stress) + ", ", breakage(b, scene));
+    text += fmt::format("fragment beyond reach  {:.1f} Pa, {}\n", b.lost->stress, rate(b.lost->stress));
   } else {
     text += run.ending() + "\n";
   }
-  if (b.first_limit)
-    text += fmt::format("first contact yields   {:.1f} Pa, {}\n", *b.first_limit, rate(*b.first_limit));
-  if (b.first_rupture)
-    text += fmt::format("first contact breaks   {:.1f} Pa, {}\n", *b.first_rupture, rate(*b.first_rupture));
+  const auto happened = [&](const char* what, const std::optional<Instant>& instant) {
+    if (!instant) return;
+    const std::string time = scene.protocol.has_history() ? fmt::format("{:.6g} s, ", instant->time) : "";
+    text += fmt::format("{}   {}{:.1f} Pa, {}\n", what, time, instant->stress, rate(instant->stress));
+  };
+  happened("first contact yields", b.first_limit);
+  happened("first contact breaks", b.first_rupture);
   text += fmt::format("contacts               {} at first, {} before breakup\n", b.contacts_initial, b.before.contacts);
   text += fmt::format("radius of gyration     {:+.1f} %\n",
                       100 * change(b.before.radius_of_gyration, b.initial.radius_of_gyration));
@@ -186,8 +234,10 @@ std::string result_text(const BreakupRun& run, const BreakerScene& scene, std::o
   text += "fragments             ";
   for (const std::int64_t size : b.fragments) text += fmt::format(" {}", size);
   text += "\n";
-  text += fmt::format("1/s: shear rate in this liquid of {:g} Pa s; {}, as in: {}\n", scene.liquid.viscosity,
-                      name_of(scene.flow), device_of(name_of(scene.flow)));
+  text += fmt::format("1/s: shear rate in this liquid of {:g} Pa s", scene.liquid.viscosity);
+  text += scene.protocol.has_history()
+              ? ", root of 2 E:E along the history\n"
+              : fmt::format("; {}, as in: {}\n", name_of(scene.flow), device_of(name_of(scene.flow)));
   if (relative_error(b, companion)) text += "±: " + how_estimated(scene, b, companion) + "\n";
   return text;
 }
@@ -196,7 +246,7 @@ GranuleStrength granule_strength(const BreakupRun& run, const BreakerScene& scen
                                  const Start& start, std::optional<double> companion) {
   const Breakup& b = run.breakup();
   const Particles& p = start.agglomerate.particles;
-  return {b.severed,
+  return {b.severed ? std::optional(b.severed->stress) : std::nullopt,
           run.stress(),
           name_of(scene.flow) + ", flexible",
           relative_error(b, companion),
@@ -209,6 +259,22 @@ GranuleStrength granule_strength(const BreakupRun& run, const BreakerScene& scen
 std::string_view integrator_summary(const BreakerScene& scene) {
   return scene.is(IntegratorKind::implicit) ? Implicit::summary : ExplicitEuler::summary;
 }
+
+namespace {
+
+void describe_history(const BreakerScene& scene, double strength, std::vector<std::string>& lines) {
+  const Protocol& p = scene.protocol;
+  const double mu = scene.model.viscosity, largest = mu * p.history().largest_rate(), first = p.time_of(strength);
+  lines.push_back(
+      fmt::format("history: {:.4g} s in {} instants, {} corners at this tolerance; strain {:.3g}; flow stress "
+                  "up to {:.4g} Pa, at {:.4g} s",
+                  p.end(), p.history().times().size(), p.corners(scene.tolerance, 1e-3 * strength).size(),
+                  p.strain(p.end()) / mu, largest, p.time_of(largest)));
+  lines.push_back(first < p.end() ? fmt::format("from {:.4g} s on it may break as a rigid body", first)
+                                  : "as a rigid body it would hold: it breaks only if it deforms");
+}
+
+}  // namespace
 
 std::vector<std::string> describe(const BreakerScene& scene, const Start& start) {
   const Particles& particles = start.agglomerate.particles;
@@ -231,7 +297,12 @@ std::vector<std::string> describe(const BreakerScene& scene, const Start& start)
   lines.push_back(fmt::format("integrator: {}", integrator_summary(scene)));
   const double mu = scene.model.viscosity;
   const double stress = start.rigid_strength;
-  lines.push_back(fmt::format("as a rigid body it would break at {:.4g} Pa", stress));
+  lines.push_back(fmt::format("as a rigid body it would break at {:.4g} Pa{}", stress,
+                              scene.protocol.has_history() ? ", in the orientation that loads it most" : ""));
+  if (scene.protocol.has_history()) {
+    describe_history(scene, stress, lines);
+    return lines;
+  }
   const double time = std::min(scene.protocol.time_of(stress), scene.protocol.end());
   const double available = std::isfinite(time) ? scene.protocol.strain(time) / mu : 0;
   BodyHydrodynamics hydrodynamics(particles.radius, mu, scene.model.hydro);

@@ -27,11 +27,10 @@ class BreakupRun {
   double tolerance() const { return scene_.tolerance * coarsening_; }  // of the implicit integrator
   double time() const { return pieces_[turn_].time(); }
   double stress() const { return protocol_.stress_before(time()); }  // Pa
-  ExpectedSteps expected_steps() const {
-    return pieces_[0].integrator->expected_steps(scene_.rigid_strength);
-  }                          // of the whole
-  double fraction() const;   // done, a guess: largest use of a contact so far
-  Frame laboratory() const;  // all particles; those of lost fragments where they were lost
+  Instant now() const { return at(time()); }
+  ExpectedSteps expected_steps() const;  // of the whole
+  double fraction() const;               // done, a guess: largest use of a contact so far
+  Frame laboratory() const;              // all particles; those of lost fragments where they were lost
   const Observation& observation() const { return course_.observation(); }
   const Breakup& breakup() const { return course_.breakup(); }
   const std::vector<Event>& events() const { return course_.events(); }
@@ -45,6 +44,7 @@ class BreakupRun {
   const BreakerScene& scene_;
   const Particles& particles_;
   Protocol protocol_;
+  std::vector<double> corners_;  // of the history, s: steps end at them
   double coarsening_;
   std::size_t broken_when_lost_;  // particles
   std::size_t turn_ = 0;          // of the piece that moves next
@@ -53,6 +53,8 @@ class BreakupRun {
   Course course_;
   bool finished_ = false, broken_ = false, at_stage_end_ = false;
 
+  Instant at(double time) const;
+  double next_corner(double time) const;
   std::unique_ptr<Integrator> integrate(const std::vector<double>& radius, Frame frame) const;
   void divide();
   void end_with_breakup();

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "common/flow/history_parameters.hpp"
 #include "common/io/plausible.hpp"
 #include "common/io/shared_parameters.hpp"
 #include "common/io/surface_forces_parameters.hpp"
@@ -26,6 +27,38 @@ Section particle() {
                 "histories of the file go on, as after an earlier breakup (no scaling)")
           .by_default("close"));
   return section;
+}
+
+Section flow() {
+  Section section{
+      "flow",
+      "The flow, linear in space: of one kind, growing as the protocol says, or as a history of its gradient has it.",
+      {P::choice("kind", flow_names(),
+                 "Planar elongation du_x/dx = -du_z/dz (paper, 3.3), simple shear u_x(y), uniaxial extension along x, "
+                 "biaxial along x and y, or none")
+           .by_default("elongation")}};
+  for (Parameter& p : history_parameters("of which `track` names one")) section.parameters.push_back(std::move(p));
+  return section;
+}
+
+// The history, if the scene names one: in place of a kind of flow that grows.
+Protocol history_in(const Scene& scene, double viscosity) {
+  FlowHistory history = flow_history_in(scene);
+  if (history.many)
+    throw scene.error("flow.history",
+                      fmt::format("names {} histories; one granule goes along one of them: flow.track says which (a "
+                                  "campaign varies it)",
+                                  history.many->size));
+  if (!history.one) return Protocol();
+  for (const char* key : {"flow.kind", "protocol.strain", "protocol.scale_with_viscosity", "protocol.largest_stress",
+                          "breakup.stable_strain", "output.sample_interval", "output.frame_interval"})
+    if (scene.is_set(key) && scene.origin(key) == Scene::Origin::given)
+      throw scene.error(key, "has no meaning along a history (" + scene.where("flow.history") + ")");
+  if (scene.count("protocol.stage") > 0)
+    throw scene.error("flow.history", "the flow is that of the history; no [[protocol.stage]] goes with it");
+  if (!(history.one->largest_rate() > 0))
+    throw scene.error("flow.history", "nothing is strained in it: a fluid that turns like a solid breaks nothing");
+  return Protocol(std::make_shared<const GradientHistory>(std::move(*history.one)), viscosity);
 }
 
 Protocol protocol_in(const Scene& scene, double stretch) {
@@ -73,12 +106,7 @@ const ParameterTable& breaker_parameters() {
       hydrodynamics_section(
           {"fts", "fts-lubrication", "fts-relative-lubrication"}, "fts-relative-lubrication",
           "Far field; with pair lubrication as in Eq. 9; with pair lubrication on relative motion only"),
-      {"flow",
-       "The flow, linear in space.",
-       {P::choice("kind", flow_names(),
-                  "Planar elongation du_x/dx = -du_z/dz (paper, 3.3), simple shear u_x(y), uniaxial extension along x, "
-                  "biaxial along x and y, or none")
-            .by_default("elongation")}},
+      flow(),
       {"protocol",
        "How strong the flow is at which time, as flow stress mu gamma_dot. Without any [[protocol.stage]] it is one "
        "ramp from rest that follows from the strength of the agglomerate taken as rigid.",
@@ -182,7 +210,8 @@ BreakerScene breaker_scene(const Scene& scene) {
   s.model.gradient = unit_gradient(s.flow);
   s.ramp_strain = scene.real("protocol.strain");
   s.protocol = protocol_in(scene, scene.flag("protocol.scale_with_viscosity") ? s.model.viscosity : 1);
-  if (s.protocol.stages().empty() && s.flow == FlowKind::quiescent)
+  if (Protocol history = history_in(scene, s.model.viscosity); history.has_history()) s.protocol = std::move(history);
+  if (!s.protocol.has_history() && s.protocol.stages().empty() && s.flow == FlowKind::quiescent)
     throw scene.error("flow.kind",
                       "nothing follows from the strength where nothing flows: say how long in "
                       "[[protocol.stage]]");
@@ -217,6 +246,13 @@ void adapt(BreakerScene& s, double strength) {
     // Nothing grows: an interval says how often only in a flow.
     for (double* stress : {&s.largest_stress, &s.sample_interval, &s.frame_interval})
       if (*stress == 0) *stress = 1;
+    return;
+  }
+  if (s.protocol.has_history()) {
+    s.rigid_strength = strength;
+    s.model.weak_stress = 1e-3 * strength;
+    s.sample_interval = s.protocol.end() / 1000;
+    s.frame_interval = s.protocol.end() / 50;
     return;
   }
   // Up to the stress S a ramp of rate r has strained by S^2/(2 r mu).

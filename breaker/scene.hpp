@@ -24,7 +24,7 @@ struct BreakerScene {
   BreakupModel model;
   Liquid liquid;  // that of the model, with its density
   FlowKind flow = FlowKind::elongation;
-  Protocol protocol;         // without stages: adapt() makes the ramp
+  Protocol protocol;         // without stages or a history: adapt() makes the ramp
   double ramp_strain = 500;  // of that ramp, up to the rigid strength
   IntegratorKind integrator = IntegratorKind::implicit;
   double tolerance = 0.01;
@@ -40,8 +40,9 @@ struct BreakerScene {
   double accuracy = 0.01;     // of the critical stress, relative; while its error is larger the tolerance is halved,
   std::int64_t halvings = 2;  // at most so often
   double rigid_strength = 0;  // Pa, of the agglomerate; adapt() sets it
-  double largest_stress = 0, sample_interval = 0, frame_interval = 0;  // Pa; 0: adapt() says
+  double largest_stress = 0, sample_interval = 0, frame_interval = 0;  // Pa (along a history s); 0: adapt() says
 
+  std::string flow_name() const { return protocol.has_history() ? "history" : name_of(flow); }
   bool is(IntegratorKind kind) const { return integrator == kind; }
 };
 

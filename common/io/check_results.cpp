@@ -43,6 +43,8 @@ constexpr Range allowed[] = {
     {"/flows/<name>/critical_stress", std::numeric_limits<double>::min(), none},
     {"/errors/<name>", 0, none},
     {"/breakup/critical_stress", 0, none},
+    {"/breakup/stress", 0, none},
+    {"/breakup/time", 0, none},
     {"/events/stress", 0, none},
     {"/events/kind", 0, 5},
     {"/events/fragment_sizes", 1, none},

@@ -127,10 +127,12 @@ constexpr auto rows = std::to_array<Entry>({
   {"/flows/<name>/critical_stress", dataset, f64, "", "Pa", none, "viscosity times shear rate that breaks a contact"},
 
   // How far each result can be relied on, and breakup. Since version 1.2
-  {"/errors/<name>", dataset, f64, "", "", none, "numerical error of a result as the run states it, relative: d_c, h_c_over_d_c, contacts, critical_stress"},
+  {"/errors/<name>", dataset, f64, "", "", none, "numerical error of a result as the run states it, relative: d_c, h_c_over_d_c, contacts, critical_stress, breakup_time"},
   {"/breakup/critical_stress", dataset, f64, "", "Pa", none, "flow stress at which the last path of contacts to what was lost gave way"},
-  {"/flow@type", attribute, str, "", "", none, "kind of flow", "", "", "quiescent|elongation|elongational|shear|uniaxial|biaxial"},
-  {"/flow/gradient", dataset, f64, "3 3", "", none, "velocity gradient for unit shear rate, row i, column j: du_i/dx_j"},
+  {"/breakup/stress", dataset, f64, "", "Pa", none, "the same along a history of the velocity gradient, where it is no strength"},
+  {"/breakup/time", dataset, f64, "", "s", none, "when that path gave way"},
+  {"/flow@type", attribute, str, "", "", none, "kind of flow", "", "", "quiescent|elongation|elongational|shear|uniaxial|biaxial|history"},
+  {"/flow/gradient", dataset, f64, "3 3", "", none, "velocity gradient for unit shear rate, row i, column j: du_i/dx_j; of a history at the breakup, or where the run ended"},
   {"/events/time", dataset, f64, "E", "s", none, "instants, in order"},
   {"/events/stress", dataset, f64, "E", "Pa", none, "flow stress at each"},
   {"/events/kind", dataset, i32, "E", "", none, "0 slip, 1 twist, 2 roll, 3 rupture, 4 contact made, 5 fragment lost"},

@@ -148,17 +148,90 @@ class Program(unittest.TestCase):
         loose, _, _ = self.breakup(start, "integrator.tolerance=0.08", "error.accuracy=0.5")
         self.assertEqual(loose["results"]["tolerance"], 0.08)
 
-    def goes_on(self, start, *settings):
+    def history(self, gradient, times, name="flow.csv"):
+        """gradient(t): 3 x 3 in 1/s."""
+        rows = [",".join(map(repr, [float(t), *map(float, numpy.ravel(gradient(t)))])) for t in times]
+        names = ["t [s]", *(f"du{i}/d{j} [1/s]" for i in "xyz" for j in "xyz")]
+        (self.folder / name).write_text("\n".join([",".join(names), *rows]) + "\n")
+        scene = self.folder / "history.toml"
+        scene.write_text(f'[particle]\nradius = 1e-7\n[fluid]\nviscosity = 1.0\n[flow]\nhistory = "{name}"\n')
+        return scene
+
+    def test_a_history_that_grows_breaks_as_the_ramp_does(self):
+        start = self.agglomerate(DOUBLET)
+        ramp, _, _ = self.breakup(start, 'protocol.stage=[{kind="ramp", rate=5e6}]')
+        scene = self.history(lambda t: 5e6 * t * numpy.diag([0.5, 0, -0.5]), numpy.linspace(0, 4e-3, 401))
+        report, run, out = self.breakup_of(scene, start, output="history.h5")
+        found = report["results"]
+        self.assertAlmostEqual(5e6 * found["breakup_time_s"] / ramp["results"]["critical_stress_pa"], 1, delta=2e-3)
+        self.assertAlmostEqual(found["breakup_stress_pa"] / (5e6 * found["breakup_time_s"]), 1, delta=1e-9)
+        self.assertNotIn("critical_stress_pa", found)  # it is none
+        self.assertLess(report["errors"]["breakup_time_relative"]["value"], 5e-3)
+        self.assertIn("breaks at ", run.stdout)
+        self.assertIn("may break as a rigid body", run.stderr)
+        with h5py.File(out) as file:
+            self.assertEqual(file["flow"].attrs["type"], "history")
+            self.assertAlmostEqual(file["breakup/time"][()], found["breakup_time_s"])
+            self.assertTrue((numpy.diff(file["series/flow_stress/time"][:]) > 0).all())
+            self.assertGreater(len(file["series/flow_stress/time"]), 20)
+
+    def test_a_history_that_is_too_weak_breaks_nothing_and_says_so(self):
+        scene = self.history(lambda t: 500 * numpy.diag([0.5, 0, -0.5]), numpy.linspace(0, 0.01, 11))
+        report, run, _ = self.breakup_of(scene, self.agglomerate(DOUBLET), "error.estimate=false")
+        self.assertIsNone(report["results"]["breakup_time_s"])
+        self.assertIn("nothing broke until the end of the history, 0.01 s", run.stdout)
+        self.assertIn("as a rigid body it would hold", run.stderr)
+
+    def test_an_interrupted_run_along_a_history_goes_on_to_the_same_bits(self):
+        start = self.agglomerate(coil(16))
+        scene = self.history(lambda t: 3e5 * t * numpy.array([[0, 1, 0], [0, 0, 0], [0, 0, 0]]), numpy.linspace(0, 0.05, 5001))
+        self.goes_on(start, "error.estimate=false", "integrator.tolerance=0.002", scene=scene)
+
+    def test_of_many_tracks_one_is_followed(self):
+        sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "pipeline/tracks"))
+        import store
+        start, time = self.agglomerate(DOUBLET), numpy.linspace(0, 4e-3, 401)
+        weak = 1e3 * numpy.broadcast_to(numpy.diag([0.5, 0, -0.5]), (401, 3, 3))
+        strong = 5e6 * time[:, None, None] * numpy.diag([0.5, 0, -0.5])
+        store.write(self.folder / "tracks.h5", time, numpy.stack([weak, strong]), "made")
+        scene = self.folder / "tracks.toml"
+        scene.write_text('[particle]\nradius = 1e-7\n[fluid]\nviscosity = 1.0\n[flow]\nhistory = "tracks.h5"\n')
+        held, _, _ = self.breakup_of(scene, start, "flow.track=1", "error.estimate=false")
+        broken, _, _ = self.breakup_of(scene, start, "flow.track=2", "error.estimate=false", output="second.h5")
+        self.assertIsNone(held["results"]["breakup_time_s"])
+        self.assertGreater(broken["results"]["breakup_time_s"], 1e-3)
+        for settings, words in (((), "names 2 histories; one granule goes along one of them"), (("flow.track=3",), "holds 2 tracks")):
+            run = self.run_it(scene, start, "-o", self.folder / "no.h5", *[a for s in settings for a in ("--set", s)])
+            self.assertEqual(run.returncode, 2)
+            self.assertIn(words, run.stderr)
+
+    def test_what_contradicts_a_history_is_refused(self):
+        start = self.agglomerate(DOUBLET)
+        scene = self.history(lambda t: 500 * numpy.diag([0.5, 0, -0.5]), numpy.linspace(0, 0.01, 11))
+        for setting, words in (("flow.kind=shear", "has no meaning along a history"), ("protocol.strain=10", "has no meaning along a history"),
+                               ('protocol.stage=[{kind="rest", duration=1}]', "no [[protocol.stage]] goes with it"), ("flow.track=1", "nothing to choose from"),
+                               ("output.frame_interval=3", "has no meaning along a history")):
+            run = self.run_it(scene, start, "-o", self.folder / "no.h5", "--set", setting)
+            self.assertEqual(run.returncode, 2, run.stderr)
+            self.assertIn(words, run.stderr)
+        run = self.run_it(scene, start, "-o", self.folder / "no.h5", "--at", "100 Pa")
+        self.assertEqual(run.returncode, 2)
+        self.assertIn("--at asks", run.stderr)
+        self.history(lambda t: 500 * numpy.array([[0, 1, 0], [-1, 0, 0], [0, 0, 0]]), numpy.linspace(0, 0.01, 11))
+        run = self.run_it(scene, start, "-o", self.folder / "no.h5")
+        self.assertIn("turns like a solid", run.stderr)
+
+    def goes_on(self, start, *settings, scene=SCENE):
         whole, cut = self.folder / "whole.h5", self.folder / "cut.h5"
-        duration = seconds([BREAKER, *self.command(start, *settings, output=whole.name)])
+        duration = seconds([BREAKER, scene, *self.command(start, *settings, output=whole.name)[1:]])
         for number, part in ((signal.SIGINT, 0.15), (signal.SIGTERM, 0)):
-            code = interrupt([BREAKER, *self.command(start, *settings, output=cut.name)], number, part * duration)
+            code = interrupt([BREAKER, scene, *self.command(start, *settings, output=cut.name)[1:]], number, part * duration)
             self.assertEqual(code, 128 + number)
             self.assertTrue(pathlib.Path(f"{cut}.checkpoint").exists() and not cut.exists())
-        other = self.run_it(*self.command(start, *settings[:1], output=cut.name))
+        other = self.run_it(scene, *self.command(start, *settings[:1], output=cut.name)[1:])
         self.assertEqual(other.returncode, 2)
         self.assertIn("another scene", other.stderr)
-        again = self.run_it(*self.command(start, *settings, output=cut.name), "--restart")
+        again = self.run_it(scene, *self.command(start, *settings, output=cut.name)[1:], "--restart")
         self.assertEqual(again.returncode, 0, again.stderr)
         self.assertFalse(pathlib.Path(f"{cut}.checkpoint").exists())
         a, b = contents(whole), contents(cut)
