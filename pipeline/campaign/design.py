@@ -22,7 +22,8 @@ def along(axis, share):
     low, high = axis["from"], axis["to"]
     if axis.get("spacing", "linear") == "log":
         return _rounded(math.exp(math.log(low) + share * math.log(high / low)))
-    return _rounded(low + share * (high - low))
+    value = _rounded(low + share * (high - low))
+    return int(value) if isinstance(low, int) and isinstance(high, int) and value.is_integer() else value  # numbers of tracks, of particles
 
 
 def _check_range(axis, where, design):

@@ -45,6 +45,8 @@ QUANTITIES = [
     Quantity("n_max_shear", "6 pi mu gamma_dot a^2", "stress", "shear.n_max_orbit", "n_max_relative+shear_n_max_orbit_relative"),
     Quantity("critical_stress_flexible", "Pa", "breakup", "critical_stress_pa", "critical_stress_relative", "largest_stress_pa",
              meaning="flexible, in the flow of its scene"),
+    Quantity("breakup_time", "s", "breakup", "breakup_time_s", "breakup_time_relative", "followed_to_s", meaning="flexible, along a history"),
+    Quantity("breakup_stress", "Pa", "breakup", "breakup_stress_pa", meaning="flexible, of the history where it broke the granule"),
     Quantity("first_rupture_stress", "Pa", "breakup", "first_rupture_stress_pa", "", "largest_stress_pa"),
 ]
 BY_NAME = {quantity.name: quantity for quantity in QUANTITIES}

@@ -22,10 +22,10 @@ def rate(gradient):
 
 
 def instants(time, gradient, strain_step):
-    """Instants between which the liquid is strained by no more than strain_step; in weak flow no more than five times as far apart as in the strongest."""
+    """Instants between which the liquid is strained by no more than strain_step, at least 400; in weak flow no more than five times as far apart as in the strongest."""
     local = rate(gradient)
     measure = summed(numpy.maximum(local, local.max() / 5), time)
-    return numpy.interp(numpy.linspace(0, measure[-1], int(numpy.ceil(measure[-1] / strain_step)) + 1), measure, time)
+    return numpy.interp(numpy.linspace(0, measure[-1], max(int(numpy.ceil(measure[-1] / strain_step)), 400) + 1), measure, time)
 
 
 def parser(doc):

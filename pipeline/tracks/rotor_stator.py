@@ -69,7 +69,7 @@ def equal_shares(count):
     return numpy.interp((numpy.arange(count) + 0.5) / count, 3 * p**2 - 2 * p**3, p)
 
 
-def track(gap, p, strain_step=0.1):
+def track(gap, p, strain_step=0.5):
     edge = min(gap.gap / gap.height, 0.5)  # shares of the way
     way = numpy.unique(numpy.concatenate([numpy.linspace(0, 1, 20001), [edge, 1 - edge]]))
     part = numpy.minimum(1, numpy.minimum(way, 1 - way) / edge)

@@ -74,7 +74,7 @@ def equal_shares(count):
     return numpy.sqrt(1 - numpy.sqrt(1 - share))
 
 
-def track(vessel, s, ahead, strain_step=0.1, count=200001):
+def track(vessel, s, ahead, strain_step=0.5, count=200001):
     """Time and gradient from `ahead` m before the narrowing to as far behind it."""
     end = vessel.length / 2 + ahead
     x = numpy.linspace(-end, end, count)

@@ -120,7 +120,7 @@ def run_rows(table):
     with tempfile.TemporaryDirectory(prefix="accuracy-") as scratch:
         for k, row in enumerate(table["rows"]):
             out = f"{scratch}/{k}"
-            run(f"{table['command'].replace('{out}', out)} {row['arguments']}", subprocess.PIPE)
+            run(f"{table['command']} {row['arguments']}".replace("{out}", out), subprocess.PIPE)
             reports[row["name"]] = json.loads(pathlib.Path(f"{out}.json").read_text(encoding="utf-8"))
     arguments = {row["name"]: f"`{row['arguments']}`" if row["arguments"] else "" for row in table["rows"]}
     return of_reports(table, reports, ("arguments", arguments))

@@ -15,7 +15,7 @@ import tomllib
 KEYS = {
     "dryer": "[particle]\nnumber = 100\n# radius =   (required)  in m\n\n[droplet]\n# peclet =   (not set)\n\n[run]\nseed = 1\n",
     "rigidstress": "[particle]\nfragments = \"refuse\"\n\n[flow]\nelongation = true\nshear = true\nuniaxial = false\nbiaxial = false\n# history =   (not set)\n\n[run]\nseed = 1\n",
-    "breaker": "[flow]\nkind = \"elongation\"\n\n[protocol]\n# largest_stress =   (not set)  in Pa\n",
+    "breaker": "[flow]\nkind = \"elongation\"\n# history =   (not set)\n# track =   (not set)\n\n[protocol]\n# largest_stress =   (not set)  in Pa\n",
 }
 
 

@@ -152,6 +152,17 @@ class Identities(InAFolder):
         self.write("h.csv", "two")
         self.assertNotEqual(first.id, plans.realisations(self.plan(text))[0].runs[1].id)
 
+    def test_a_range_of_whole_numbers_numbers_tracks(self):
+        self.write("h.csv", "one")
+        text = PLAIN + ("[breakup]\nscene = \"break.toml\"\nset = {\"flow.history\" = \"h.csv\"}\n"
+                        "[vary]\n\"breakup.flow.track\" = {from = 1, to = 4, count = 4}\n")
+        made = plans.realisations(self.plan(text))
+        tracks = [one.runs[-1].scene["flow"]["track"] for one in made]
+        self.assertEqual(tracks, [1] * 3 + [2] * 3 + [3] * 3 + [4] * 3)
+        self.assertTrue(all(isinstance(track, int) for track in tracks))
+        self.assertEqual(len({one.runs[0].id for one in made}), 3)  # each granule is dried once
+        self.assertEqual(len({one.runs[-1].id for one in made}), 12)
+
     def test_faults_name_file_and_key(self):
         for text, words in (
                 (PLAIN + "[vary]\n\"dry.droplet.peclt\" = [1]\n", "my.toml: .vary.: unknown key 'droplet.peclt' of dryer; did you mean 'droplet.peclet'"),

@@ -21,7 +21,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BUILD = os.environ.get("CRUMBLE_BUILD", ROOT / "build/release")
-MANUALS = ["README.md", "dryer/README.md", "breaker/README.md", "rigidstress/README.md", "common/io/README.md", "pipeline/TUTORIAL.md", "pipeline/campaign/README.md", "pipeline/campaign/KERNEL.md"]
+MANUALS = ["README.md", "dryer/README.md", "breaker/README.md", "rigidstress/README.md", "common/io/README.md", "pipeline/TUTORIAL.md", "pipeline/campaign/README.md", "pipeline/campaign/KERNEL.md", "pipeline/tracks/README.md"]
 PROGRAM = re.compile(r"build/release/bin/(dryer|breaker|rigidstress)\b")
 BLOCK = re.compile(r"(?ms)(?:^<!-- (run with|not run): ([^\n]*?) -->\n+)?^```(sh|toml|python|text)\n(.*?)^```$")
 # With the unit of a time, which is min instead of s on a slow machine.

