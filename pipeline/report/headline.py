@@ -80,6 +80,9 @@ def of_breakup(file):
     if "breakup/critical_stress" in file:
         yield Result("critical_stress_pa", "critical stress (µγ̇)", float(file["breakup/critical_stress"][()]), "Pa", *stated(file, "critical_stress"))
     course = file["observables"]
+    if "breakup/stress" in file:  # along a history
+        yield Result("breakup_time_s", "breaks at", float(file["breakup/time"][()]), "s", *stated(file, "breakup_time"))
+        yield Result("breakup_stress_pa", "stress then (µγ̇)", float(file["breakup/stress"][()]), "Pa")
     yield Result("largest_stress_pa", "largest stress reached", float(course["flow_stress/value"][:].max()), "Pa")
     for k, when in ((0, "first"), (-1, "last")):
         yield Result(f"contacts_{when}", f"contacts, {when} frame", int(course["contact_count/value"][k]))

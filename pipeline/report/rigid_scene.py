@@ -19,6 +19,8 @@ def rigid(of):
     """Text of the scene; `of` is that of the breakup, resolved."""
     if of["particle"].get("contacts") == "keep":
         sys.exit("particle.contacts = \"keep\": rigidstress closes the contacts and would load another granule")
+    if "history" in of["flow"]:
+        sys.exit(f"flow.history = \"{of['flow']['history']}\": name the history in a scene of rigidstress: its place is as seen from there")
     if of["flow"]["kind"] not in FLOWS:
         sys.exit(f"flow.kind = \"{of['flow']['kind']}\": nothing is loaded in it")
     lines = []

@@ -188,7 +188,8 @@ class Program(unittest.TestCase):
         self.goes_on(start, "error.estimate=false", "integrator.tolerance=0.002", scene=scene)
 
     def test_of_many_tracks_one_is_followed(self):
-        sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "pipeline/tracks"))
+        root = pathlib.Path(__file__).resolve().parents[2]
+        sys.path[:0] = [str(root / "pipeline/tracks"), str(root / "pipeline/report")]
         import store
         start, time = self.agglomerate(DOUBLET), numpy.linspace(0, 4e-3, 401)
         weak = 1e3 * numpy.broadcast_to(numpy.diag([0.5, 0, -0.5]), (401, 3, 3))
