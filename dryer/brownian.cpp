@@ -38,6 +38,10 @@ double surface_stiffness(const DryingModel& model, double a) {
 // Of the stiffness that a long step of explicit Euler is stable for, half of which soft pairs may have in sum.
 constexpr double soft_share = 0.05;
 
+double soft_stiffness(const DryingModel& model, double a, double long_step) {
+  return soft_share * drag_coefficient(model.viscosity, a) / long_step;
+}
+
 SixVector same_for_all_directions(double translation, double rotation) {
   return six_vector((Vector6() << Vector3::Constant(translation), Vector3::Constant(rotation)).finished());
 }
@@ -77,8 +81,7 @@ Brownian::Brownian(const DryingModel& model, Agglomerate& state, std::uint64_t s
     turning_drag_.push_back(dt_ / rotational_drag_coefficient(model.viscosity, a));
   }
   if (model.surface_forces)
-    surface_forces_.emplace(model, laws_, state.particles,
-                            soft_share * drag_coefficient(model.viscosity, scales.radius) / long_step(), margin_);
+    surface_forces_.emplace(model, laws_, state.particles, soft_stiffness(model, scales.radius, long_step()), margin_);
 }
 
 std::optional<double> Brownian::ionic_strength() const {
@@ -330,7 +333,7 @@ Work Brownian::expected_work(const DryingModel& model, const std::vector<double>
   const double tau = model.droplet.lifetime, peclet = model.droplet.peclet(D);
   Work work;
   struct Stage {
-    double end, step, margin, stickiness, lifetime;
+    double end, step, margin, soft, stickiness, lifetime;
     int depth;
   };
   std::vector<Stage> stages;
@@ -341,16 +344,19 @@ Work Brownian::expected_work(const DryingModel& model, const std::vector<double>
                        : std::isinf(part.most_bonds) ? drying_until(phi, 1)
                                                      : drying_until(phi, packing_with(part.most_bonds));
     const PairStatistics pair = pair_statistics(Jkr(part.model.material, a), kT, 2 * D);
-    stages.push_back({std::max(begin, end), step, 6 * std::sqrt(4 * D * std::ldexp(step, part.depth)), pair.stickiness,
-                      pair.lifetime, part.depth});
-    work.steps += std::max(end - begin, 0.0) * tau / std::ldexp(step, part.depth);
+    const double long_step = std::ldexp(step, part.depth);
+    stages.push_back({std::max(begin, end), step, approach(D, long_step), soft_stiffness(model, a, long_step),
+                      pair.stickiness, pair.lifetime, part.depth});
+    work.steps += std::max(end - begin, 0.0) * tau / long_step;
     begin = std::max(begin, end);
   }
   work.seconds = N * work.add_up([&](double fraction) {
     const double R = 1 - fraction, t = 1 - R * R;
     const auto stage = std::find_if(stages.begin(), stages.end() - 1, [&](const Stage& k) { return t <= k.end; });
     const double packing = std::min(phi / (R * R * R), 0.64);
-    double share = share_near(packing, a, stage->margin, stage->stickiness);
+    const double R0 = model.droplet.initial_radius;
+    const double stiff = stiff_gap(model, a, stage->soft, phi * R0 * R0 * R0, R * R0);
+    double share = share_near(packing, a, stage->margin + stiff, stage->stickiness);
     if (stage->lifetime > 0.1 * a * a / D) share = std::max(share, share_clustered(model, N, t * tau));
     const double swept = (1 - R * R * R) * peclet / (peclet + 20);
     share = swept + (1 - swept) * share;

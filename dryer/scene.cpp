@@ -43,8 +43,6 @@ IntegratorKind integrator_kind(const Scene& scene, const DryingScene& s) {
       throw scene.error("contact.law",
                         "with particle.brownian_motion the overdamped integrator knows jkr only; set "
                         "integrator.method = \"inertial\"");
-    // The one of the two that knows them.
-    if (method != "stabilised" && scene.is_set("surface_forces.hamaker")) return IntegratorKind::brownian;
     const ThermalRupture rupture = thermal_rupture(s);
     if (method == "stabilised" && !rupture.never())
       throw scene.error("integrator.method",
@@ -59,6 +57,10 @@ IntegratorKind integrator_kind(const Scene& scene, const DryingScene& s) {
   return method == "implicit" || !jkr ? IntegratorKind::implicit : IntegratorKind::stabilised;
 }
 
+// Root mean square displacement of a free particle while its random force stands, in the Debye length at the start: the
+// stability ratio then is that of Fuchs (tests/dryer/surface_passages.cpp).
+constexpr double share_of_debye_length = 0.25;
+
 // What surface forces ask of the other keys.
 void take_surface_forces(const Scene& scene, DryingScene& s) {
   // Of a droplet in a gas that at its start.
@@ -67,11 +69,12 @@ void take_surface_forces(const Scene& scene, DryingScene& s) {
   if (!s.model.surface_forces) return;
   const SurfaceForces& forces = *s.model.surface_forces;
   check_surface_forces(scene, forces, s.model.material, s.smallest_radius(), s.largest_radius());
-  if (!s.is(IntegratorKind::brownian) && !s.is(IntegratorKind::inertial))
+  if (s.is(IntegratorKind::implicit))
     throw scene.error(
         "integrator.method",
-        fmt::format("knows no surface forces (surface_forces.hamaker, {}): with particle.brownian_motion = true "
-                    "leave it at \"overdamped\", without set \"inertial\"",
+        fmt::format("\"implicit\", which contact.law = \"cundall-strack\" asks for, too, knows no surface forces "
+                    "(surface_forces.hamaker, {}): with contact.law = \"jkr\" leave it at \"overdamped\", else set "
+                    "\"inertial\"",
                     scene.where("surface_forces.hamaker")));
   if (scene.origin("integrator.softening") == Scene::Origin::given && s.softening != 1 &&
       s.is(IntegratorKind::brownian))
@@ -79,6 +82,11 @@ void take_surface_forces(const Scene& scene, DryingScene& s) {
         "integrator.softening",
         "is of bonds alone; with surface_forces contacts have the material's stiffness: set 1, or remove it");
   s.softening = 1;
+  // Noise that stands while particles pass the double layer would not let them over its barrier.
+  if (scene.origin("integrator.brownian_displacement") != Scene::Origin::given)
+    s.stabilised.brownian_displacement =
+        std::min(s.stabilised.brownian_displacement,
+                 share_of_debye_length / forces.electrolyte.inverse_debye_length() / s.smallest_radius());
 }
 
 }  // namespace

@@ -155,7 +155,7 @@ const ParameterTable& drying_parameters() {
             .by_default(usual_displacement),
         P::real("brownian_displacement", "",
                 "stabilised with Brownian motion: root mean square displacement of a free particle while its random "
-                "force stands, in a")
+                "force stands, in a; with surface forces by default at most a quarter of the Debye length at the start")
             .above(0)
             .at_most(0.2)
             .by_default(StabilisedControl{}.brownian_displacement),

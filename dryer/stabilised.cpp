@@ -23,27 +23,14 @@ constexpr double steps_in_one = 8, steps_behind_crust = 1;
 constexpr double room = 0.05;
 // Evaluations from one look at stiffness, displacements and pairs to the next.
 constexpr int look = 64;
+// Of the stiffness that stands over a step() for explicit Euler: SurfaceLoads.
+constexpr double soft_share = 0.05;
 
-std::uint64_t spread(std::uint64_t x) {
-  x &= 0x1fffff;
-  x = (x | x << 32) & 0x1f00000000ffff;
-  x = (x | x << 16) & 0x1f0000ff0000ff;
-  x = (x | x << 8) & 0x100f00f00f00f00f;
-  x = (x | x << 4) & 0x10c30c30c30c30c3;
-  return (x | x << 2) & 0x1249249249249249;
-}
-
-// clear() would keep the memory.
-template <class... Arrays>
-void release(Arrays&... arrays) {
-  ((arrays = Arrays()), ...);
-}
-
-// Neighbours in space get neighbouring places, so that what a bond reads is in the cache.
-std::uint64_t morton(const Vector3& x, double width) {
-  std::uint64_t key = 0;
-  for (int k = 0; k < 3; ++k) key |= spread(static_cast<std::uint64_t>(std::max(0.0, x[k] / width + 1048576.0))) << k;
-  return key;
+// Of the noise, within a step() after the one in which it begins: as many as the way allows to pairs that are far
+// enough apart not to be listed.
+std::uint64_t intervals(const StabilisedControl& control) {
+  const double root = control.near(true) / (6 * control.brownian_displacement);
+  return static_cast<std::uint64_t>(root * root);
 }
 
 }  // namespace
@@ -56,7 +43,22 @@ Stabilised::Stabilised(const DryingModel& model, Agglomerate& state, const Stabi
       place_(state.particles.size(), -1) {
   if (model.contact.normal != NormalLaw::jkr) throw std::invalid_argument("stabilised steps know the JKR law only");
   if (model.thermal_energy > 0) noise_.emplace(model, state.particles.radius, seed, control.brownian_displacement);
+  if (model.surface_forces) {
+    const double a = smallest_radius();
+    surface_forces_.emplace(model, laws_, state.particles, soft_stiffness(model, a, control), near_ * a);
+  }
   state.state.velocity.resize(state.particles.size(), Vector3::Zero());
+}
+
+std::optional<double> Stabilised::ionic_strength() const {
+  return surface_forces_ ? std::optional(surface_forces_->ionic_strength()) : std::nullopt;
+}
+
+double Stabilised::soft_stiffness(const DryingModel& model, double a, const StabilisedControl& control) {
+  if (model.thermal_energy == 0) return 0;
+  const double longest =
+      static_cast<double>(intervals(control) + 1) * ThermalLoads::interval(model, a, control.brownian_displacement);
+  return soft_share * drag_coefficient(model.viscosity, a) / longest;
 }
 
 // Until the front has gone so many of the smallest radius, s.
@@ -72,9 +74,12 @@ void Stabilised::step(double latest_time) {
   double end = std::min(begin + time_of_travel(steps * control_.largest_displacement), latest_time);
   if (noise_) {
     noise_->advance_to(begin);
-    // As many as the way allows to pairs that are far enough apart not to be listed.
-    const double root = near_ / (6 * noise_->displacement());
-    end = std::min(end, noise_->end(static_cast<std::uint64_t>(root * root)));
+    end = std::min(end, noise_->end(intervals(control_)));
+  }
+  if (surface_forces_) {
+    surface_forces_->begin(f, front_.radius(0.5 * (begin + end)));
+    repulsion_rate_ =
+        2 * surface_forces_->stiffness_of_repulsion(f) / drag_coefficient(model_.viscosity, smallest_radius());
   }
   choose(front_.radius(end));
   gather();
@@ -106,23 +111,6 @@ void Stabilised::step(double latest_time) {
   front_.follow(state_);
 }
 
-bool Stabilised::is_dry(std::int32_t p, double R) const {
-  return dryer::is_dry(state_.particles.radius[p], state_.state.position[p].norm(), R);
-}
-
-// With noise: whom a bond or the surface may hold up until it is at R. Those near another come on top.
-std::vector<char> Stabilised::who_moves(double R) const {
-  const Frame& f = state_.state;
-  std::vector<char> moves(place_.size(), 0);
-  const double now = front_.radius(f.time), reach = 0.5 * near_ * smallest_radius();
-  for (std::size_t p = 0; p < place_.size(); ++p) {
-    const auto particle = static_cast<std::int32_t>(p);
-    moves[p] = f.position[p].norm() + state_.particles.radius[p] + reach > R && !is_dry(particle, now);
-  }
-  for (const Contact& bond : f.contacts) moves[bond.i] = moves[bond.j] = 1;
-  return moves;
-}
-
 void Stabilised::load_thermally() {
   if (!noise_) return;
   noise_->advance_to(state_.state.time);
@@ -132,85 +120,19 @@ void Stabilised::load_thermally() {
 
 // Those that nothing holds up, in this interval of the noise.
 void Stabilised::advance_free(double passed) {
-  for (std::size_t k = 0; k < free_.size(); ++k) free_way_[k] += passed * noise_->velocity(free_[k]);
+  for (std::size_t k = 0; k < free_.size(); ++k) {
+    const std::size_t p = free_[k];
+    free_way_[k] += passed * noise_->velocity(p);
+    if (!surface_forces_) continue;
+    const Quad& force = surface_forces_->soft_force(p);
+    free_way_[k] +=
+        passed / drag_coefficient(model_.viscosity, state_.particles.radius[p]) * Vector3(force[0], force[1], force[2]);
+  }
 }
 
 // How far noise moves a particle in so long a time, in the smallest radius: 5.2 standard deviations of a component.
 double Stabilised::thermal_way(double time) const {
   return noise_ ? 3 * noise_->displacement() * time / noise_->interval() : 0;
-}
-
-// Who moves and who may be met: the list depends on the state alone.
-void Stabilised::choose(double R_end) {
-  Frame& f = state_.state;
-  activity_.front_at(R_end);
-  const double a = smallest_radius();
-  std::vector<Pair> pairs;
-  NeighbourSearch().find(f.position, state_.particles.radius, near_ * a, pairs);
-  erase_bonded(pairs, f.contacts);
-  const double R = front_.radius(f.time);
-  const std::vector<char> moves = noise_ ? who_moves(R_end) : std::vector<char>();
-  const auto rests = [&](std::int32_t p) {
-    return noise_ ? !moves[p] && is_dry(p, R) && !model_.dry.everything_acts : !activity_.is_active(p);
-  };
-  std::erase_if(pairs, [&](const Pair& p) { return rests(p.i) && rests(p.j); });
-  std::vector<std::pair<std::uint64_t, std::int32_t>> order;
-  const auto choose_one = [&](std::int32_t p) {
-    if (place_[p] >= 0) return;
-    place_[p] = 0;
-    order.emplace_back(morton(f.position[p], 2 * a), p);
-  };
-  std::fill(place_.begin(), place_.end(), -1);
-  for (const std::int32_t p : activity_.active())
-    if (!noise_ || moves[p]) choose_one(p);
-  for (const Pair& pair : pairs) choose_one(pair.i), choose_one(pair.j);
-  std::sort(order.begin(), order.end());
-  chosen_.clear();
-  for (const auto& [key, p] : order) {
-    place_[p] = static_cast<std::int32_t>(chosen_.size());
-    chosen_.push_back(p);
-  }
-  for (const Pair& pair : pairs) open_pairs_.push_back({place_[pair.i], place_[pair.j]});
-  for (std::size_t p = 0; noise_ && p < place_.size(); ++p)
-    if (place_[p] < 0 && (model_.dry.everything_acts || !is_dry(static_cast<std::int32_t>(p), R))) free_.push_back(p);
-  free_way_.assign(free_.size(), Vector3::Zero());
-}
-
-// Bonds are in the frame or in the block, not in both: each is a fourth of all memory.
-void Stabilised::gather() {
-  Frame& f = state_.state;
-  const std::size_t count = chosen_.size();
-  // In the order of their first place, for the cache.
-  std::vector<std::pair<std::int32_t, std::int32_t>> order;
-  order.reserve(f.contacts.size());
-  for (std::size_t b = 0; b < f.contacts.size(); ++b)
-    order.emplace_back(std::min(place_[f.contacts[b].i], place_[f.contacts[b].j]), static_cast<std::int32_t>(b));
-  std::sort(order.begin(), order.end());
-  bonds_.clear(count, f.contacts.size());
-  known_rate_ = 0;
-  for (const auto& [place, b] : order) {
-    const Contact& bond = f.contacts[b];
-    const BondLaw& law = laws_(bond.i, bond.j);
-    bonds_.add(bond, place_[bond.i], place_[bond.j], law, state_.particles.radius[bond.i],
-               state_.particles.radius[bond.j], law.lost_gap());
-  }
-  release(f.contacts);
-  motion_.resize(count);
-  mobility_.resize(count);
-  radius_.assign(padded(count), 0);
-  thermal_.assign(noise_ ? count : 0, {});
-  noisy_.assign(count, 0);
-  const double R = front_.radius(f.time);
-  for (std::size_t m = 0; m < count; ++m) {
-    const double a = state_.particles.radius[chosen_[m]];
-    motion_.position[m] = position(f.position[chosen_[m]]);
-    const bool dry = noise_ && is_dry(chosen_[m], R);
-    const double drag = dry ? model_.dry.drag_factor : 1;
-    mobility_.translation[m] = static_cast<float>(1 / (drag * drag_coefficient(model_.viscosity, a)));
-    mobility_.rotation[m] = static_cast<float>(1 / (drag * rotational_drag_coefficient(model_.viscosity, a)));
-    radius_[m] = static_cast<float>(a);
-    noisy_[m] = noise_ && (!dry || model_.dry.everything_acts);
-  }
 }
 
 double Stabilised::rate() const {
@@ -238,7 +160,7 @@ double Stabilised::limit_of_rate() {
     surface = noise_ ? ThermalLoads::surface_rate(model_, smallest_radius(), noise_->interval(), R)
                      : surface_rate(model_.droplet, smallest_radius(), zeta, R);
   is_stable(known_rate_ + 0.5 * one);
-  return std::max((1 + room) * rate() + one, 4 * surface);
+  return std::max((1 + room) * rate() + one + repulsion_rate_, 4 * surface);
 }
 
 // Looks closer if what has been added may be too much.
@@ -321,6 +243,7 @@ void Stabilised::stabilised_step(double latest_time) {
 
 void Stabilised::push(const Chebyshev::Stage& stage, double dt, double R) {
   const std::size_t count = chosen_.size();
+  if (surface_forces_) surface_forces_->evaluate(motion_.position);
   if (count < many) {
     for (std::size_t m = 0; m < count; m += lanes) push_some(m, stage, dt, R);
     return;
@@ -342,6 +265,10 @@ void Stabilised::push_some(std::size_t first, const Chebyshev::Stage& stage, dou
     const auto x = load(position[l]);
     Six loads = bonds_.load_on(first + l) + six(pull[l] * in_single(x), 0);
     if (noise_) loads += load(thermal_[first + l]);
+    if (surface_forces_)
+      loads += six(
+          surface_forces_->force(first + l) + surface_forces_->soft_force(static_cast<std::size_t>(chosen_[first + l])),
+          0);
     const Six way = memory * load(moved[l]) + push * mobility_.of(first + l) * loads;
     store(moved[l], way);
     store(position[l], x + in_double(translation(way)));
@@ -356,6 +283,7 @@ void Stabilised::lose() {
     closest_.push_back({i, j});
     // What the bond has left of motion is the method's, not theirs: nothing would stop it.
     motion_.moved[i] = motion_.moved[j] = {};
+    if (surface_forces_) surface_forces_->set_bonded({chosen_[i], chosen_[j]}, false);
     bonds_.remove(bond);
     ++statistics_.contacts_lost;
   }
@@ -390,6 +318,7 @@ bool Stabilised::meet(std::vector<Pair>& pairs, double limit) {
     const Vector3 D = vector(motion_.position[j]) - vector(motion_.position[i]);
     bonds_.add(make_bond(law, p, other, D, a_p, a_q, state_.state.step), i, j, law, a_p, a_q, law.lost_gap());
     bonds_.find_stiffness(bonds_.size() - 1);
+    if (surface_forces_) surface_forces_->set_bonded({p, other}, true);
     for (const std::int32_t place : {i, j})
       within_limit =
           within_limit &&
@@ -417,26 +346,6 @@ double Stabilised::farthest() {
   double most = moves_.empty() ? 0 : *std::max_element(moves_.begin(), moves_.end());
   for (const Vector3& way : free_way_) most = std::max(most, way.norm() / smallest_radius());
   return most;
-}
-
-void Stabilised::put_back(double begin) {
-  Frame& f = state_.state;
-  const double passed = f.time - begin;
-  for (std::size_t m = 0; m < chosen_.size(); ++m) {
-    const std::int32_t p = chosen_[m];
-    const Vector3 x = vector(motion_.position[m]);
-    if (!x.allFinite())
-      throw std::domain_error(fmt::format("step {} at t = {:.6g} s: particle {} is not finite", f.step, f.time, p));
-    f.velocity[p] = passed > 0 ? Vector3((x - f.position[p]) / passed) : Vector3(Vector3::Zero());
-    f.position[p] = x;
-  }
-  for (std::size_t k = 0; k < free_.size(); ++k) f.position[free_[k]] += free_way_[k];
-  release(motion_, before_, moves_, mobility_, open_pairs_, closest_, closer_, thermal_, noisy_, free_, free_way_);
-  bonds_.forget_loads();
-  bonds_.hand_back(chosen_, laws_, f.contacts);
-  for (const Contact& bond : f.contacts) activity_.wake(bond.i), activity_.wake(bond.j);
-  statistics_.largest_overlap = std::max(statistics_.largest_overlap, bonds_.deepest_overlap());
-  release(bonds_);
 }
 
 void Stabilised::fields(SavedFields& f) {

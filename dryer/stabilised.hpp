@@ -10,6 +10,7 @@
 #include "dryer/displacement.hpp"
 #include "dryer/integrator.hpp"
 #include "dryer/relaxation_rate.hpp"
+#include "dryer/surface_loads.hpp"
 #include "dryer/thermal_loads.hpp"
 #include "dryer/work.hpp"
 
@@ -35,6 +36,9 @@ struct StabilisedControl {
 // With Brownian motion each particle has a load more, that of thermal_loads.hpp, and a stabilised step ends with its
 // interval. Particles without bond or near neighbour, and away from the surface, go its whole way at once. What the
 // liquid has left dry has no noise (model.dry).
+//
+// Surface forces are evaluated as the bonds are. With Brownian motion those of pairs that are too far apart to be stiff
+// within a step() stand as long as that.
 class Stabilised : public Integrator {
  public:
   static constexpr std::string_view summary =
@@ -45,7 +49,11 @@ class Stabilised : public Integrator {
   // Throws std::domain_error naming the particle if the state is not finite.
   void step(double latest_time) override;
 
+  // Surface forces of pairs that resist less stand over a step(), N/m; 0 without noise: all are evaluated each time.
+  static double soft_stiffness(const DryingModel& model, double a, const StabilisedControl& control);
+
   void fields(SavedFields& f) override;
+  std::optional<double> ionic_strength() const override;
 
   // Evaluations: stages of the Chebyshev method, summed over steps that the front makes each in the time of the largest
   // displacement. The fastest rate is some 12 k/zeta, k the stiffest spring of a bond, or that at which a strong
@@ -83,6 +91,8 @@ class Stabilised : public Integrator {
   double near_;         // of control_, in the smallest radius
   double next_dt_ = 0;  // s
   std::optional<ThermalLoads> noise_;
+  std::optional<SurfaceLoads> surface_forces_;
+  double repulsion_rate_ = 0;       // of the stiff ones within the step(), 1/s
   std::vector<SixVector> thermal_;  // of the places; empty without noise
   std::vector<char> noisy_;         // whether the place has noise
   std::vector<std::size_t> free_;   // particles without place that noise moves

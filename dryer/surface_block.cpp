@@ -44,8 +44,9 @@ HWY_INLINE Lane SurfaceBlock::tension(std::size_t b, const Lane& squared, const 
     return Lane::load(&array[b]);
   };
   const Lane sum = at(sum_), distance = squared * inverse, gap = (squared - sum * sum) / (distance + sum);
-  const Lane faded = hn::Exp(Lane::Tag(), (-(kappa_ * gap)).at[0]);
-  const Lane repulsion = -at(strength_) * inverse * faded * (kappa_ + inverse);
+  const Lane apart = max(gap, Lane(0)), per_r = min(inverse, 1 / sum);
+  const Lane faded = hn::Exp(Lane::Tag(), (-(kappa_ * apart)).at[0]);
+  const Lane repulsion = -at(strength_) * per_r * faded * (kappa_ + per_r);
   if (hamaker_ == 0) return where_greater(range_, gap, repulsion, 0);
   // (4 A/3) p^3 r/(s d)^2 in factors that stay within single precision.
   const Lane lost = at(lost_), h = max(gap, at(joined_)), p = at(product_), s = h * (2 * sum + h);

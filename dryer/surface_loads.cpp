@@ -1,8 +1,21 @@
 #include "dryer/surface_loads.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace crumble::dryer {
+
+double stiff_gap(const DryingModel& model, double a, double soft, double solids, double R) {
+  if (!model.surface_forces) return 0;
+  const SurfaceForces& forces = *model.surface_forces;
+  const std::vector<double> radius{a, a};
+  const BondLaws bonds(model.contact, model.material, radius);
+  SurfaceForceLaws laws(forces, bonds, radius);
+  const double before = std::pow(model.droplet.initial_radius, 3) - solids;
+  laws.set_ionic_strength(concentrated(forces.electrolyte.ionic_strength, before,
+                                       std::max(R * R * R - solids, 1e-9 * before), forces.solubility));
+  return laws.gap_of_stiffness(soft);
+}
 
 SurfaceLoads::SurfaceLoads(const DryingModel& model, const BondLaws& contacts, const Particles& particles, double soft,
                            double margin)
@@ -33,6 +46,18 @@ void SurfaceLoads::begin(const Frame& frame, double R) {
   position_.resize(radius.size());
   for (std::size_t p = 0; p < radius.size(); ++p) position_[p] = position(frame.position[p]);
   soft_block_.add_forces(position_.data(), soft_force_.data());
+}
+
+double SurfaceLoads::stiffness_of_repulsion(const Frame& frame) const {
+  std::vector<double> sum(particles_.radius.size(), 0);
+  double most = 0;
+  for (const Pair& pair : stiff_) {
+    const double gap = (frame.position[pair.j] - frame.position[pair.i]).norm() - particles_.radius[pair.i] -
+                       particles_.radius[pair.j];
+    const double k = pairs_.laws()(pair.i, pair.j).repulsion.stiffness(std::max(gap - margin_, 0.0));
+    for (const std::int32_t p : {pair.i, pair.j}) most = std::max(most, sum[p] += k);
+  }
+  return most;
 }
 
 void SurfaceLoads::gather(const std::vector<std::int32_t>& place, std::size_t places,

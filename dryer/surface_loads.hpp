@@ -7,6 +7,10 @@
 
 namespace crumble::dryer {
 
+// Gap within which a pair of radius a is stiff in the droplet that has shrunk to R, m; solids: volume of all particles
+// over 4 pi/3, m^3. 0 without surface forces.
+double stiff_gap(const DryingModel& model, double a, double soft, double solids, double R);
+
 class SurfaceLoads {
  public:
   // A pair is soft where |d^2U/dh^2| < soft, N/m; margin: by how much a gap may close within a long step, m.
@@ -17,6 +21,9 @@ class SurfaceLoads {
   void begin(const Frame& frame, double R);
   const std::vector<Pair>& stiff_pairs() const { return stiff_; }
   const Quad& soft_force(std::size_t particle) const { return soft_force_[particle]; }
+  // The largest sum over the stiff pairs of one particle of what the double layers resist, at the nearest that they may
+  // come within the long step, N/m.
+  double stiffness_of_repulsion(const Frame& frame) const;
 
   // The stiff ones, of particles that stand at these places; places: how many there are; contacts: sorted.
   void gather(const std::vector<std::int32_t>& place, std::size_t places, const std::vector<Contact>& contacts);

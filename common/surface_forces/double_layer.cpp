@@ -1,5 +1,6 @@
 #include "common/surface_forces/double_layer.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -11,9 +12,21 @@ double effective_potential(const Electrolyte& electrolyte, double a, double pote
   return 8 * g / (1 + std::sqrt(1 - (2 * x + 1) * g * g / ((x + 1) * (x + 1))));
 }
 
-double DoubleLayer::energy(double gap) const { return strength / (distance + gap) * std::exp(-kappa * gap); }
+double DoubleLayer::plain_energy(double gap) const { return strength / (distance + gap) * std::exp(-kappa * gap); }
 
-double DoubleLayer::tension(double gap) const { return -energy(gap) * (kappa + 1 / (distance + gap)); }
+double DoubleLayer::energy(double gap) const {
+  return gap < 0 ? plain_energy(0) + tension(0) * gap : plain_energy(gap);
+}
+
+double DoubleLayer::tension(double gap) const {
+  const double h = std::max(gap, 0.0);
+  return -plain_energy(h) * (kappa + 1 / (distance + h));
+}
+
+double DoubleLayer::stiffness(double gap) const {
+  const double per_r = 1 / (distance + gap), rate = kappa + per_r;
+  return plain_energy(gap) * (rate * rate + per_r * per_r);
+}
 
 DoubleLayer double_layer(const Electrolyte& electrolyte, double a1, double a2, double effective_1, double effective_2) {
   const double volt = electrolyte.thermal_voltage();

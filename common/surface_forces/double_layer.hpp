@@ -17,13 +17,19 @@ double effective_potential(const Electrolyte& electrolyte, double a, double pote
 // Exact for h >> 1/kappa, where neither surface regulates the other; nearer it lies between constant potential and
 // constant charge, which differ there. kappa a -> infinity: 32 pi eps a (kT/e)^2 g^2 exp(-kappa h) for equal spheres.
 // Source: Bell, Levine & McCartney 1970, J. Colloid Interface Sci. 33, 335; with Y of Ohshima, Healy & White 1982.
+// Across a contact (h < 0), where there is no liquid left to screen anything, the push of h = 0 goes on: the form
+// itself would grow exponentially with the overlap of two spheres that in truth are flattened.
 struct DoubleLayer {
   double strength = 0;  // 4 pi eps (kT/e)^2 Y1 Y2 a1 a2, J m
   double distance = 0;  // a1 + a2, m
   double kappa = 0;     // 1/m
 
-  double energy(double gap) const;   // J
-  double tension(double gap) const;  // dV_R/dh, N: negative, repulsion
+  double energy(double gap) const;     // J
+  double tension(double gap) const;    // dV_R/dh, N: negative, repulsion
+  double stiffness(double gap) const;  // d^2V_R/dh^2 for h >= 0, N/m
+
+ private:
+  double plain_energy(double gap) const;
 };
 // Radii a1, a2: m; effective potentials Y1, Y2: kT/e.
 DoubleLayer double_layer(const Electrolyte& electrolyte, double a1, double a2, double effective_1, double effective_2);

@@ -22,11 +22,11 @@ DryingScene small_scene(const std::string& kind) {
           ? ""
           : "[surface_forces]\nhamaker = 9.85e-21\nsurface_potential = 0.04\nionic_strength = 10\n";
   const std::string method = kind.substr(0, kind.find('_'));
+  const bool strong = kind.starts_with("stabilised_") && brownian;
   // Stabilised steps with noise want bonds that last: ten times larger particles.
-  const std::string lengths = kind == "stabilised_with_noise" ? "radius = 100e-9\nnumber = 20\nbrownian_motion = "
-                                                              : "radius = 10e-9\nnumber = 20\nbrownian_motion = ",
-                    droplet = kind == "stabilised_with_noise" ? "radius = 700e-9\nlifetime = 1e-4\n"
-                                                              : "radius = 120e-9\nlifetime = 2e-7\n";
+  const std::string lengths = strong ? "radius = 100e-9\nnumber = 20\nbrownian_motion = "
+                                     : "radius = 10e-9\nnumber = 20\nbrownian_motion = ",
+                    droplet = strong ? "radius = 700e-9\nlifetime = 1e-4\n" : "radius = 120e-9\nlifetime = 2e-7\n";
   const std::string text = "[particle]\n" + lengths + (brownian ? "true" : "false") + "\n[droplet]\n" + droplet +
                            "[integrator]\nmethod = \"" + method + "\"\n" + crust + salt;
   return drying_scene(Scene::parse(text, "small.toml", drying_parameters()));
@@ -86,7 +86,9 @@ INSTANTIATE_TEST_SUITE_P(Integrators, Restart,
                          ::testing::Values("implicit", "stabilised", "inertial", "overdamped_with_noise",
                                            "stabilised_with_noise", "inertial_with_noise", "implicit_behind_a_crust",
                                            "stabilised_behind_a_crust", "inertial_behind_a_crust",
-                                           "overdamped_in_salt_with_noise", "inertial_in_salt"));
+                                           "overdamped_in_salt_with_noise", "inertial_in_salt",
+                                           "inertial_in_salt_with_noise", "stabilised_in_salt",
+                                           "stabilised_in_salt_with_noise"));
 
 TEST(Checkpoint, that_lacks_a_field_or_has_one_too_many_is_refused_by_its_name) {
   const Folder folder;

@@ -173,13 +173,18 @@ class GasDrying : public ::testing::TestWithParam<const char*> {
  protected:
   // Cold at first, so that the liquid changes; of a real droplet, since one of 137 nm is warm in no time.
   static DryingScene scene() {
-    const std::string method = GetParam();
-    const bool noise = method == "overdamped";
+    const std::string kind = GetParam(), method = kind.substr(0, kind.find('_'));
+    const bool noise = method == "overdamped", salt = kind.ends_with("_in_salt");
     // With water's surface tension the others take minutes.
     const std::string fluid = noise ? "" : "[fluid]\nsurface_tension = 1.75e-4\n";
-    return scene_of(hot + fluid + "[stands_for]\ndroplet_radius = 2e-6\n[integrator]\nmethod = \"" + method + "\"\n" +
-                        (noise ? "softening = 1.5\n" : "largest_displacement = 0.1\n") + "[error]\nestimate = false\n",
-                    "initial_temperature = 298.15\n", noise ? "brownian_motion = true\n" : "");
+    return scene_of(
+        hot + fluid + "[stands_for]\ndroplet_radius = 2e-6\n[integrator]\nmethod = \"" + method + "\"\n" +
+            (salt    ? ""
+             : noise ? "softening = 1.5\n"
+                     : "largest_displacement = 0.1\n") +
+            "[error]\nestimate = false\n" +
+            (salt ? "[surface_forces]\nhamaker = 9.85e-21\nsurface_potential = 0.03\nionic_strength = 10\n" : ""),
+        "initial_temperature = 298.15\n", noise ? "brownian_motion = true\n" : "");
   }
 };
 
@@ -215,7 +220,8 @@ TEST_P(GasDrying, goes_through_the_liquids_of_its_temperatures_and_restarts_to_t
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Integrators, GasDrying, ::testing::Values("stabilised", "implicit", "overdamped"));
+INSTANTIATE_TEST_SUITE_P(Integrators, GasDrying,
+                         ::testing::Values("stabilised", "implicit", "overdamped", "overdamped_in_salt"));
 
 TEST(GasStandIn, keeps_k_and_the_temperatures_of_the_real_droplet) {
   const Scene real = Scene::parse(

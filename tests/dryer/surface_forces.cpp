@@ -8,12 +8,12 @@
 #include <random>
 
 #include "common/agglomerate/bond.hpp"
-#include "common/surface_forces/stability.hpp"
 #include "dryer/brownian.hpp"
 #include "dryer/drag.hpp"
 #include "dryer/inertial.hpp"
 #include "dryer/liquid_volume.hpp"
-#include "tests/dryer/samples.hpp"
+#include "dryer/stabilised.hpp"
+#include "tests/dryer/in_salt.hpp"
 #include "tests/long_version.hpp"
 #include "tests/seeds.hpp"
 
@@ -22,26 +22,6 @@ using namespace crumble::dryer;
 using namespace crumble::dryer::samples;
 
 namespace {
-
-constexpr double a = 10e-9, kT = boltzmann_constant * 298.15;
-
-SurfaceForces forces(double hamaker, double potential, double ionic_strength) {
-  SurfaceForces f;
-  f.hamaker = hamaker;
-  f.surface_potential = potential;
-  f.electrolyte = {ionic_strength, 78.4 * vacuum_permittivity, kT};
-  f.solubility = 5400;
-  return f;
-}
-
-// No surface anywhere near.
-DryingModel in_bulk(const SurfaceForces& f) {
-  DryingModel model;
-  model.droplet = {1e-3, 1e6, 0};
-  model.thermal_energy = kT;
-  model.surface_forces = f;
-  return model;
-}
 
 TEST(LiquidVolume, of_two_spheres_in_closed_form) {
   EXPECT_EQ(shared_volume(3, 1, 4), 0);
@@ -205,8 +185,8 @@ TEST(SurfaceForces, a_step_is_short_enough_for_the_stiffest_of_contact_and_surfa
             0.15 * drag_coefficient(model.viscosity, a) / laws.largest_stiffness());
 }
 
-// Two particles let go 1.5 nm apart move as the law pulls, without noise to speak of: both integrators.
-TEST(SurfaceForces, both_integrators_move_a_pair_as_its_law_says) {
+// Two particles let go 1.5 nm apart move as the law pulls, without noise to speak of.
+TEST(SurfaceForces, all_integrators_move_a_pair_as_its_law_says) {
   DryingModel model = in_bulk(forces(9.85e-21, 0.0, 100));
   model.thermal_energy = 1e-12 * kT;
   const double start = 1.5e-9, end = 1.2e-9;
@@ -230,100 +210,17 @@ TEST(SurfaceForces, both_integrators_move_a_pair_as_its_law_says) {
   EXPECT_NEAR(time_of(Brownian(model, t, 1, {0.15, 0}), t) / expected, 1, 0.01);
   const double step = Inertial::recommended_step(model, u.particles);
   EXPECT_NEAR(time_of(Inertial(model, u, step, 1), u) / expected, 1, 0.02);
-}
-
-// First passage. A pair at the gap b touches before it comes to the gap q with the chance
-//   P = int_b^q w dh/int_0^q w dh,  w = e^(U/kT)/(2 a + h)^2
-// whatever the diffusivity, in free draining. So counting contacts measures int_0^q w dh, and with the rest of the way
-// by quadrature W, whose two integrals are measured with and without charge. Gaps are looked at once a long step, so q
-// is passed late by 0.58 of its standard deviation (Broadie, Glasserman & Kou 1997).
-struct Passage {
-  double integral = 0, relative_error = 0;  // int_0^infinity w dh; of sampling
-  std::int64_t trials = 0;
-};
-Passage measured(const SurfaceForces& f, double b, double q, int depth, int contacts, std::uint64_t seed) {
-  constexpr int pairs = 64;
-  constexpr double apart = 1e-6;
-  const DryingModel model = in_bulk(f);
-  const auto place = [&](int k, bool even) { return Vector3(apart * k, even ? 0.0 : 0.4e-6, 0); };
-  std::vector<Vector3> x;
-  std::vector<char> even(pairs, 1);
-  for (int k = 0; k < pairs; ++k) x.push_back(place(k, true)), x.push_back(place(k, true) + Vector3(2 * a + b, 0, 0));
-  Agglomerate s = spheres(x);
-  Brownian integrator(model, s, seed, {0.15, depth});
-  std::int64_t made = 0, left = 0;
-  while (made < contacts) {
-    integrator.step(1e9);
-    auto& bonds = s.state.contacts;
-    for (int k = 0; k < pairs; ++k) {
-      auto& y = s.state.position;
-      const auto bond = std::find_if(bonds.begin(), bonds.end(), [&](const Contact& c) { return c.i == 2 * k; });
-      const bool escaped = (y[2 * k + 1] - y[2 * k]).norm() > 2 * a + q;
-      if (bond == bonds.end() && !escaped) continue;
-      ++(escaped ? left : made);
-      if (bond != bonds.end()) bonds.erase(bond);
-      even[k] = !even[k];
-      y[2 * k] = place(k, even[k]);
-      y[2 * k + 1] = place(k, even[k]) + Vector3(2 * a + b, 0, 0);
-    }
-  }
-  const double P = static_cast<double>(made) / static_cast<double>(made + left);
-  const double D = kT / drag_coefficient(model.viscosity, a), late = 0.5826 * std::sqrt(4 * D * integrator.long_step());
-  const std::vector<double> radius{a, a};
-  const BondLaws bonds(model.contact, model.material, radius);
-  const SurfaceForceLaws laws(f, bonds, radius);
-  const auto integral = [&](double from, double to) {
-    constexpr int points = 20000;
-    double sum = 0;
-    for (int k = 0; k < points; ++k) {
-      const double h = from + (to - from) * (k + 0.5) / points, r = 2 * a + h;
-      sum += std::exp(laws(0, 1).open_energy(h) / kT) / (r * r) * (to - from) / points;
-    }
-    return sum;
-  };
-  const double far = laws.range();
-  return {integral(b, q + late) / P + integral(q + late, far) + 1 / (2 * a + far),
-          std::sqrt((1 - P) / static_cast<double>(made)), made + left};
-}
-
-struct Rates {
-  const char* name;
-  double ionic_strength, W, b, q;  // mol/m^3, -, m, m
-  int depth, contacts;
-};
-
-class FirstPassage : public ::testing::TestWithParam<Rates> {};
-
-// Bounds: five standard errors of both counts together, 6e-7 by chance, and 2 % for the step and the range, which ends
-// at 0.01 kT.
-TEST_P(FirstPassage, of_a_pair_gives_the_free_draining_stability_ratio) {
-  const Rates& r = GetParam();
-  const int contacts = long_version() ? 10 * r.contacts : r.contacts;
-  const Passage slow = measured(forces(4.6e-21, 0.03, r.ionic_strength), r.b, r.q, r.depth, contacts, seeded(1));
-  const Passage rapid = measured(forces(4.6e-21, 0, r.ionic_strength), r.b, r.q, r.depth, contacts, seeded(2));
-  const double error = std::hypot(slow.relative_error, rapid.relative_error);
-  std::printf("W = %.4g +- %.2g of %lld and %lld pairs\n", slow.integral / rapid.integral,
-              error * slow.integral / rapid.integral, static_cast<long long>(slow.trials),
-              static_cast<long long>(rapid.trials));
-  expect_near("W over that of Fuchs", slow.integral / rapid.integral / r.W, 1, 5 * error + 0.02);
-}
-
-INSTANTIATE_TEST_SUITE_P(, FirstPassage,
-                         ::testing::Values(Rates{"silica_in_100_mM", 100, 2.784, 1e-9, 3e-9, 2, 1500},
-                                           Rates{"silica_in_1_mM", 1, 152.4, 2e-9, 8e-9, 4, 700}),
-                         [](const auto& one) { return one.param.name; });
-
-// Rapid coagulation: the measured integral for particles without charge is that of Fuchs with attraction, so that
-// particles of 1 % meet within the half time of Smoluchowski over it.
-TEST(RapidCoagulation, by_first_passage_has_the_half_time_of_its_attraction) {
-  const Passage rapid = measured(forces(4.6e-21, 0, 1), 1e-9, 3e-9, 2, 1000, seeded(3));
-  // Without attraction the integral is 1/(2 a): the half time is longer by the ratio.
-  const double enhanced = 2 * a * rapid.integral;
-  const VanDerWaals law{4.6e-21, a, a, 0};
-  const double expected = std::exp(
-      log_stability_ratio([&](double h) { return law.energy(h) / kT; }, [](double) { return 0.0; }, a, Drainage::free));
-  expect_near("half time over that of diffusion alone", enhanced / expected, 1, 5 * rapid.relative_error + 0.02);
-  EXPECT_LT(enhanced, 1);
+  model.thermal_energy = 0;
+  Agglomerate v = pair();
+  Stabilised stabilised(model, v, {});
+  while ((v.state.position[1] - v.state.position[0]).norm() > 2 * a + end)
+    stabilised.step(v.state.time + 0.002 * expected);
+  EXPECT_NEAR(v.state.time / expected, 1, 0.01);
+  // On, until it has come to rest where contact law and double layers balance.
+  for (int k = 0; k < 200; ++k) stabilised.step(v.state.time + 0.1 * expected);
+  ASSERT_EQ(v.state.contacts.size(), 1u);
+  const double gap = (v.state.position[1] - v.state.position[0]).norm() - 2 * a;
+  EXPECT_NEAR(gap, bonds(0, 1).equilibrium_gap(), 1e-3 * a);
 }
 
 // A pair of weak attraction, without charge, in a closed sphere that does not shrink: how often it is nearer than h_j,

@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "common/io/surface_forces_parameters.hpp"
+#include "dryer/brownian.hpp"
 #include "dryer/regime.hpp"
 #include "dryer/run.hpp"
+#include "dryer/stabilised.hpp"
 
 using namespace crumble;
 using namespace crumble::dryer;
@@ -26,6 +28,15 @@ std::string refusal(const std::string& table, const std::string& more = "", cons
     return error.what();
   }
   return "accepted";
+}
+
+// Polystyrene of 100 nm.
+DryingScene polymer(const std::string& more, double ionic_strength = 10) {
+  return drying_scene(Scene::parse(
+      "[particle]\nradius = 100e-9\nnumber = 20\nbrownian_motion = true\n[droplet]\nradius = 1.2e-6\nlifetime = 1e-3\n"
+      "[surface_forces]\nhamaker = 9.5e-21\nsurface_potential = 0.04\nionic_strength = " +
+          std::to_string(ionic_strength) + "\n" + more,
+      "p.toml", drying_parameters()));
 }
 
 void expect_says(const std::string& message, const std::vector<std::string>& words) {
@@ -85,11 +96,41 @@ TEST(SurfaceForcesScene, laws_are_refused_where_they_do_not_hold) {
               {"surface_forces.hamaker", "material.surface_energy = 2e-05", "sets_surface_energy = true"});
 }
 
-TEST(SurfaceForcesScene, integrators_without_surface_forces_are_refused_by_name) {
-  for (const char* method : {"overdamped", "implicit", "stabilised"})
-    expect_says(refusal(silica, std::string("[integrator]\nmethod = \"") + method + "\"\n", "false"),
-                {"integrator.method", "surface_forces.hamaker", "particle.brownian_motion = true"});
-  EXPECT_EQ(refusal(silica, "[integrator]\nmethod = \"inertial\"\n", "false"), "accepted");
+TEST(SurfaceForcesScene, every_integrator_but_the_implicit_one_takes_them) {
+  const auto method = [](const char* name) { return std::string("[integrator]\nmethod = \"") + name + "\"\n"; };
+  expect_says(refusal(silica, method("implicit"), "false"),
+              {"integrator.method", "surface_forces.hamaker", "\"overdamped\"", "\"inertial\""});
+  expect_says(refusal(silica, "[contact]\nlaw = \"cundall-strack\"\n", "false"),
+              {"integrator.method", "cundall-strack", "surface_forces.hamaker", "\"inertial\""});
+  for (const char* name : {"overdamped", "stabilised", "inertial"})
+    EXPECT_EQ(refusal(silica, method(name), "false"), "accepted") << name;
+  EXPECT_TRUE(scene(silica, "", "false").is(IntegratorKind::stabilised));
+  // With noise, stabilised steps where no bond breaks thermally: at 100 nm, not at 10 nm.
+  expect_says(refusal(silica, method("stabilised")), {"integrator.method", "bonds that thermal motion breaks"});
+  EXPECT_TRUE(scene(silica).is(IntegratorKind::brownian));
+  EXPECT_TRUE(polymer("").is(IntegratorKind::stabilised));
+  EXPECT_TRUE(polymer(method("two-rate")).is(IntegratorKind::brownian));
+}
+
+TEST(SurfaceForcesScene, noise_stands_for_less_where_salt_makes_the_barrier_narrow) {
+  // 0.96 nm at 100 mol/m3 and 9.6 nm at 1: the usual 0.5 nm are a quarter of 2 nm.
+  EXPECT_NEAR(polymer("", 100).stabilised.brownian_displacement, 0.25 * 0.962e-9 / 100e-9, 2e-5);
+  EXPECT_EQ(polymer("", 1).stabilised.brownian_displacement, 0.005);
+  EXPECT_EQ(polymer("[integrator]\nbrownian_displacement = 0.01\n", 100).stabilised.brownian_displacement, 0.01);
+}
+
+// The forecast counts them: by itself a stiff gap, more evaluations for the double layers, nobody asleep.
+TEST(SurfaceForcesScene, forecast_of_the_work_grows_with_surface_forces) {
+  const StepTimes times{1e-6, 1e-7, 60};
+  const auto work = [&](const DryingScene& s, bool with) {
+    DryingModel model = s.model;
+    if (!with) model.surface_forces.reset();
+    if (s.is(IntegratorKind::stabilised)) return Stabilised::expected_work(model, s.radius, s.stabilised, times);
+    return Brownian::expected_work(model, s.radius, {{model, 6, 1e9}}, 0.15, times);
+  };
+  for (const DryingScene& s : {scene(silica), polymer("", 1), polymer("", 1000), scene(silica, "", "false")})
+    EXPECT_GT(work(s, true).seconds, 1.05 * work(s, false).seconds)
+        << s.model.surface_forces->electrolyte.ionic_strength;
 }
 
 TEST(SurfaceForcesScene, surface_energy_may_follow_from_the_Hamaker_constant) {

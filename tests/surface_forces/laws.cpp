@@ -139,6 +139,17 @@ TEST(DoubleLayer, force_is_the_slope_of_the_energy_and_unequal_spheres_repel_eac
   for (double h = 1e-10; h < 1e-7; h *= 2) {
     EXPECT_NEAR(slope([&](double x) { return law.energy(x); }, h) / law.tension(h), 1, 1e-6);
     EXPECT_DOUBLE_EQ(law.energy(h), other.energy(h));
+    EXPECT_NEAR(slope([&](double x) { return law.tension(x); }, h) / law.stiffness(h), 1, 1e-6);
+  }
+}
+
+TEST(DoubleLayer, pushes_no_harder_across_a_contact_than_at_gap_zero) {
+  const Electrolyte e = water(100);
+  const double Y = effective_potential(e, 100e-9, 0.04);
+  const DoubleLayer law = double_layer(e, 100e-9, 100e-9, Y, Y);
+  for (const double h : {-1e-12, -1e-10, -1e-9}) {
+    EXPECT_EQ(law.tension(h), law.tension(0));
+    EXPECT_NEAR(law.energy(h), law.energy(0) + law.tension(0) * h, 1e-12 * law.energy(0));
   }
 }
 
