@@ -105,6 +105,12 @@ double measured_seconds(const DryingScene& scene, SampleState state) {
   double solids = 0;
   for (const double a : scene.radius) solids += a * a * a;
   const double packed = std::min(model.droplet.initial_radius, std::cbrt(2 * solids));
+  if (model.surface_forces && state == SampleState::packed) {
+    // So is the salt.
+    Electrolyte& salt = model.surface_forces->electrolyte;
+    salt.ionic_strength = concentrated(salt.ionic_strength, std::pow(model.droplet.initial_radius, 3) - solids,
+                                       std::pow(packed, 3) - solids, model.surface_forces->solubility);
+  }
   model.droplet.lifetime = R / (2 * model.droplet.front_speed(packed));
   model.droplet.initial_radius = R;
   model.droplet.curve = nullptr;

@@ -90,9 +90,10 @@ std::string integrator_reason(const DryingScene& s) {
   const std::string none =
       bond + fmt::format("thermal motion breaks at most {:.0e} of them in the whole drying", rupture.most);
   if (!s.is(IntegratorKind::stabilised)) return none;
-  return none + fmt::format(": steps follow diffusion ({:.2g} s for {:g} a) and the front, not how stiff contacts are",
-                            ThermalLoads::interval(s.model, s.smallest_radius(), s.stabilised.brownian_displacement),
-                            s.stabilised.brownian_displacement);
+  return none +
+         fmt::format(": steps follow diffusion ({:.2g} s for {:.2g} a) and the front, not how stiff contacts are",
+                     ThermalLoads::interval(s.model, s.smallest_radius(), s.stabilised.brownian_displacement),
+                     s.stabilised.brownian_displacement);
 }
 
 }  // namespace

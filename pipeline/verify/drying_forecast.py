@@ -18,9 +18,9 @@ sys.path.insert(0, str(ROOT / "pipeline" / "report"))
 import arguments  # noqa: E402
 from table import print_markdown  # noqa: E402
 
-HOLLOW, INTERMEDIATE, COMPACT, LARGE, ADHESIVE, MICROMETRE = (
+HOLLOW, INTERMEDIATE, COMPACT, LARGE, ADHESIVE, MICROMETRE, SILICA, POLYMER = (
     str(ROOT / "pipeline" / "scenes" / f"{name}.toml")
-    for name in ("hollow", "intermediate", "compact", "large", "adhesive", "micrometre"))
+    for name in ("hollow", "intermediate", "compact", "large", "adhesive", "micrometre", "silica", "polymer"))
 SMALL = ["particle.number=30", "droplet.radius=137e-9"]
 SCENES = {
     "hollow": (HOLLOW, []),
@@ -56,6 +56,12 @@ SCENES = {
     "Pe = 1000, a = 100 nm": (INTERMEDIATE, ["particle.radius=100e-9", "droplet.radius=2.15e-6", "droplet.peclet=1000"]),
     "Pe = 100, lognormal 1.3": (INTERMEDIATE, ["droplet.peclet=100", "particle.distribution=lognormal",
                                               "particle.geometric_standard_deviation=1.3"]),
+    "silica in salt, N = 60": (SILICA, []),
+    "silica in salt, Pe = 60, N = 30": (COMPACT, SMALL + ["droplet.peclet=60", "surface_forces.hamaker=4.6e-21",
+                                                          "surface_forces.surface_potential=0.03", "surface_forces.ionic_strength=1"]),
+    "polystyrene of 100 nm in salt": (POLYMER, []),
+    "hollow, in salt": (HOLLOW, SMALL + ["droplet.lifetime=8.5e-5", "surface_forces.hamaker=9.85e-21",
+                                         "surface_forces.surface_potential=0.03", "surface_forces.ionic_strength=10"]),
 }
 UNIT = {"s": 1, "min": 60, "h": 3600, "days": 86400}
 

@@ -121,7 +121,7 @@ INSTANTIATE_TEST_SUITE_P(, FirstPassage,
 // In long steps: the noise stands while a free particle diffuses so many of the Debye length (root mean square), 0.96
 // nm here. Long against it, pairs cross the barrier too rarely.
 TEST(FirstPassageInLongSteps, gives_the_free_draining_stability_ratio) {
-  const int contacts = long_version() ? 10000 : 800;
+  const int contacts = long_version() ? 10000 : 600;
   for (const double strides : long_version() ? std::vector{0.05, 0.1, 0.25, 0.5, 1.0} : std::vector{0.25}) {
     const double displacement = strides * 0.962e-9 / a;
     const Passage slow = in_long_steps(forces(4.6e-21, 0.03, 100), 1e-9, 3e-9, displacement, contacts, seeded(4));
@@ -151,7 +151,7 @@ TEST(RapidCoagulation, by_first_passage_has_the_half_time_of_its_attraction) {
 class SecondaryMinimum : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(SecondaryMinimum, is_left_after_the_time_of_the_exact_integral) {
-  constexpr double large = 100e-9, q = 20e-9;
+  constexpr double large = 100e-9, q = 10e-9;
   constexpr int pairs = 32;
   SurfaceForces f = forces(9.5e-21, 0.04, 100);
   f.solubility = 100;  // the salt stays as it is, and sets no shorter step
@@ -183,7 +183,7 @@ TEST_P(SecondaryMinimum, is_left_after_the_time_of_the_exact_integral) {
     integrator = std::make_unique<Stabilised>(model, s, control, seeded(7));
   }
   // Of each pair as many, so that short lives do not come first.
-  const int lives = long_version() ? 125 : 13;
+  const int lives = long_version() ? 125 : 12;
   std::vector<int> lived(pairs, 0);
   std::vector<double> since(pairs, 0);
   double sum = 0, squares = 0;
