@@ -137,60 +137,6 @@ std::string library_version() {
   return fmt::format("{}.{}.{}", major, minor, release);
 }
 
-std::string_view type_name(Type type) {
-  switch (type) {
-    case Type::int32:
-      return "int32";
-    case Type::int64:
-      return "int64";
-    case Type::uint8:
-      return "uint8";
-    case Type::uint64:
-      return "uint64";
-    case Type::float64:
-      return "float64";
-    case Type::text:
-      return "text";
-    case Type::other:
-      break;
-  }
-  return "another type";
-}
-
-std::string shape_text(const Shape& shape) {
-  if (shape.empty()) return "scalar";
-  std::string text;
-  for (auto size : shape) text += fmt::format("[{}]", size);
-  return text;
-}
-
-std::uint64_t element_count(const Shape& shape) {
-  std::uint64_t count = 1;
-  for (auto size : shape)
-    if (__builtin_mul_overflow(count, size, &count)) return UINT64_MAX;
-  return count;
-}
-
-Handle& Handle::operator=(Handle&& other) noexcept {
-  if (this != &other) {
-    reset();
-    id_ = std::exchange(other.id_, -1);
-    close_ = other.close_;
-  }
-  return *this;
-}
-
-bool Handle::reset() {
-  const Id id = std::exchange(id_, -1);
-  return id < 0 || !close_ || close_(id) >= 0;
-}
-
-std::string Object::place(std::string_view name) const {
-  if (name.empty()) return file_ + ": " + (path_.empty() ? "/" : path_);
-  const std::string separator = name.front() == '/' || name.front() == '@' ? "" : "/";
-  return fmt::format("{}: {}{}{}", file_, path_, separator, name);
-}
-
 bool Object::same_object(const Object& other) const {
   H5O_info_t a, b;
   return H5Oget_info2(id(), &a, H5O_INFO_BASIC) >= 0 && H5Oget_info2(other.id(), &b, H5O_INFO_BASIC) >= 0 &&
