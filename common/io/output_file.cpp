@@ -91,7 +91,7 @@ void require_writable(const WrittenFile& file) {
   }
 }
 
-class DescriptorBuffer : public std::streambuf {
+class DescriptorBuffer final : public std::streambuf {
  public:
   explicit DescriptorBuffer(int descriptor) : descriptor_(descriptor) { setp(block_.data(), block_.data() + size); }
   ~DescriptorBuffer() override { finish(); }

@@ -1,6 +1,7 @@
 #include "common/io/schema.hpp"
 
 #include <array>
+#include <unordered_map>
 
 namespace crumble::schema {
 
@@ -182,9 +183,17 @@ std::optional<Stage> stage_named(std::string_view name) {
 
 std::span<const Entry> table() { return rows; }
 
+// Asked for every array of every file, so most are looked up by their letters.
 const Entry* find(std::string_view path) {
+  static const auto named = [] {
+    std::unordered_map<std::string_view, const Entry*> map;
+    for (const Entry& entry : rows)
+      if (entry.path.find('<') == entry.path.npos) map.emplace(entry.path, &entry);
+    return map;
+  }();
+  if (const auto entry = named.find(path); entry != named.end()) return entry->second;
   for (const Entry& entry : rows)
-    if (matches(entry.path, path)) return &entry;
+    if (entry.path.find('<') != entry.path.npos && matches(entry.path, path)) return &entry;
   return nullptr;
 }
 

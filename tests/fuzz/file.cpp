@@ -1,4 +1,5 @@
-// The file of some edits: what the checker says, and whether the reader agrees with it.
+// The file of some edits: what the checker says, and that the reader, which asks it in the middle, refuses nothing
+// else.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -41,19 +42,16 @@ std::string bare(std::string text, const std::string& path) {
 
 std::string file(std::string_view edits) {
   const auto path = edited(edits);
-  std::string verdict, found;
   try {
-    require_valid(path);
-  } catch (const ContentError& error) {
-    verdict = error.what();
+    return bare(read_all(path), path.string());
+  } catch (const FormatError& refused) {
+    try {
+      require_valid(path);
+    } catch (const ContentError& error) {
+      return bare(error.what(), path.string());
+    }
+    throw Finding(std::string("the reader refuses what the checker does not: ") + refused.what());
   }
-  try {
-    found = read_all(path);
-  } catch (const FormatError& error) {
-    if (verdict.empty()) throw Finding(std::string("the reader refuses what the checker does not: ") + error.what());
-  }
-  if (!verdict.empty() && !found.empty()) throw Finding("the reader takes what the checker refuses: " + verdict);
-  return bare(verdict.empty() ? found : verdict, path.string());
 }
 
 }  // namespace crumble::fuzz

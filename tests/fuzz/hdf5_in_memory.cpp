@@ -219,24 +219,28 @@ class Reading {
       result.type = Type::text;
       result.values = texts(type, count, read);
     } else {
-      for (const auto& [known, memory] : {std::pair{Type::int32, H5T_NATIVE_INT32},
-                                          {Type::int64, H5T_NATIVE_INT64},
-                                          {Type::uint8, H5T_NATIVE_UINT8},
-                                          {Type::uint64, H5T_NATIVE_UINT64},
-                                          {Type::float64, H5T_NATIVE_DOUBLE}}) {
-        if (H5Tequal(type, memory) <= 0) continue;
-        result.type = known;
-        result.values = empty_values(known);
-        std::visit(
-            [&]<class T>(std::vector<T>& values) {
-              values.resize(count);
-              if constexpr (!std::is_same_v<T, std::string>)
-                if (count > 0) read(memory, values.data());
-            },
-            result.values);
-      }
+      numbers(result, type, count, read, Type::int32, H5T_NATIVE_INT32);
+      numbers(result, type, count, read, Type::int64, H5T_NATIVE_INT64);
+      numbers(result, type, count, read, Type::uint8, H5T_NATIVE_UINT8);
+      numbers(result, type, count, read, Type::uint64, H5T_NATIVE_UINT64);
+      numbers(result, type, count, read, Type::float64, H5T_NATIVE_DOUBLE);
     }
     return result;
+  }
+
+  // If the array is of this type.
+  template <class Read>
+  static void numbers(Array& result, Id type, std::uint64_t count, Read read, Type candidate, Id memory) {
+    if (H5Tequal(type, memory) <= 0) return;
+    result.type = candidate;
+    result.values = empty_values(candidate);
+    std::visit(
+        [&]<class T>(std::vector<T>& values) {
+          values.resize(count);
+          if constexpr (!std::is_same_v<T, std::string>)
+            if (count > 0) read(memory, values.data());
+        },
+        result.values);
   }
 
   template <class Read>

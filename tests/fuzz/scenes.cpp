@@ -51,8 +51,8 @@ std::string mutated_scene(const std::string& text, const ParameterTable& table, 
   // Keys with their sections, in any order: TOML takes a dotted key at the top of a file.
   return mutated_lines(text, random, 0, [&]() -> std::string {
     const Section& section = one_of(random, table);
-    if (section.repeated || below(random, 12) == 0)
-      return fmt::format(section.repeated ? "[[{}]]" : "[{}]", section.name);
+    if (section.repeated) return "[[" + section.name + "]]";
+    if (below(random, 12) == 0) return "[" + section.name + "]";
     const Parameter& p = one_of(random, section.parameters);
     const bool dotted = below(random, 4) > 0;
     std::string key = p.name;
