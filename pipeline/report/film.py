@@ -47,7 +47,7 @@ def drawings(path):
         # A droplet is shown as it begins. A breakup at the scale of what has not come apart yet, with room for what then does.
         whole = [panel for k, panel in zip(kept, shown) if label is None or label[k].max() == label[kept[0]].max()]
         size = max(picture.reach(panel[0], panel[1], panel[3]) for panel in whole) * (1 if label is None else 1.5)
-        caption = picture.said_of([unit]) if label is None else f"particles of {picture.length(unit)}; blue: the largest piece"
+        caption = picture.said_of([unit]) if label is None else f"particles of radius {picture.length(unit)}; blue: the largest piece"
         return [picture.scene([panel], unit, caption, size) for panel in shown]
 
 
