@@ -42,6 +42,7 @@ QUANTITIES = [
     Quantity("critical_stress_uniaxial", "Pa", "stress", "uniaxial.critical_stress_settled_pa", "n_max_relative"),
     Quantity("critical_stress_biaxial", "Pa", "stress", "biaxial.critical_stress_settled_pa", "n_max_relative"),
     Quantity("n_max_elongation", "6 pi mu gamma_dot a^2", "stress", "elongation.n_max_settled", "n_max_relative"),
+    Quantity("n_max_worst", "6 pi mu gamma_dot a^2", "stress", "elongation.n_max_worst", "n_max_relative"),
     Quantity("n_max_shear", "6 pi mu gamma_dot a^2", "stress", "shear.n_max_orbit", "n_max_relative+shear_n_max_orbit_relative"),
     Quantity("critical_stress_flexible", "Pa", "breakup", "critical_stress_pa", "critical_stress_relative", "largest_stress_pa",
              meaning="flexible, in the flow of its scene"),
@@ -136,7 +137,7 @@ def write(path, plan, rows):
                       *(row.hashes.get(stage, "") for stage in stages),
                       *([f"{row.failure.stage}, exit code {row.failure.code}: {row.failure.words}" if row.failure else ""] if failed else [])])
     write_csv(path, heading, lines, [f"{plan.path.name}: one row a granule; an empty cell was not computed or has no value; "
-                                     "_above: nothing broke up to there; _error: numerical, as each run states it"])
+                                            "_above: nothing broke up to there; _error: numerical, as each run states it"], keep=True)
 
 
 def commits(rows, runs):

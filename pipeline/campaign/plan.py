@@ -5,6 +5,7 @@ import difflib
 import hashlib
 import os
 import pathlib
+import tomllib
 
 import design
 import scene_text
@@ -30,6 +31,8 @@ class Run:
 class Realisation:
     point: dict           # varied keys and their values
     replicate: int        # 0, 1, ... within the point
+    kind: str             # of granule: the name of its first scene
+    number: int           # its seed in a list, or its number within the point from 1
     runs: list            # in the order in which they follow each other
 
 
@@ -49,7 +52,7 @@ class Plan:
 
     def unit(self, key):
         stage, _, name = key.partition(".")
-        return self.units[stage][name]
+        return self.units[stage].get(name, "")  # the name of a scene has none
 
 
 def identity(*parts):
@@ -81,12 +84,35 @@ def _content(path):
     return digest.hexdigest()[:12]
 
 
-def _stage(stage, given, path, units, histories):
+def changed(given, settings):
+    """The campaign with settings KEY=VALUE in place of what its file says: seeds=[1,2], stress.count=3, dry.particle.number=40."""
+    for text in settings:
+        key, equals, value = text.partition("=")
+        try:
+            value = tomllib.loads(f"value = {value}")["value"]
+        except tomllib.TOMLDecodeError:
+            pass  # a word
+        head, _, name = key.partition(".")
+        if not equals or head not in KEYS:
+            raise Fault(f"--set '{text}': must be a key of a campaign or of a stage's scene and its value, as in seeds=5 or dry.particle.number=40")
+        if head in PROGRAMS and name not in STAGE_KEYS:
+            given = {**given, head: {**given.get(head, {}), "set": {**given.get(head, {}).get("set", {}), name: value}}}
+        elif head in PROGRAMS:
+            given = {**given, head: {**given.get(head, {}), name: value}}
+        else:
+            given = {**given, key: value}
+    return given
+
+
+def _stage(stage, given, path, units, histories, name=None):
+    """name: of a scene beside the base scene, in its place."""
     where = f"{path}: [{stage}]"
     _refuse_unknown(given, STAGE_KEYS, where)
     if not isinstance(given.get("scene"), str):
         raise Fault(f"{where}: needs 'scene', the file of the base scene")
     base = path.parent / given["scene"]
+    if name is not None:
+        base = base.with_name(f"{name}.toml")
     scene = scene_text.read(base)
     for key in given.get("set", {}):
         if key not in units:
@@ -108,7 +134,7 @@ def _stage(stage, given, path, units, histories):
         digest = _content(source)
         histories[f"{stage}/{digest}{source.suffix}"] = source
         scene = scene_text.changed(scene, {"flow.history": f"{digest}{source.suffix}"})
-    return {"scene": scene, "count": count}
+    return {"scene": scene, "count": count, "name": base.stem}
 
 
 def _seeds(value, where):
@@ -131,7 +157,7 @@ def _points(given, path, stages, units):
             stage, _, name = key.partition(".")
             if stage not in stages:
                 raise Fault(f"{where}.\"{key}\": must begin with a stage of this campaign: {', '.join(stages)}")
-            if name not in units[stage]:
+            if name != "scene" and name not in units[stage]:
                 raise Fault(f"{where}: unknown key '{name}' of {PROGRAMS[stage]}{_nearest(name, sorted(units[stage]))}")
         seeds = _seeds(block.get("seeds", given.get("seeds", 1)), f"{where}.seeds" if "seeds" in block else f"{path}: seeds")
         for point in design.points(axes, block.get("design", "grid"), block.get("points"), where):
@@ -139,10 +165,11 @@ def _points(given, path, stages, units):
     return list(found.values())
 
 
-def read(path, programs):
-    """programs: the folder with the programs. Returns the plan and the histories it names: {stage/name: source}."""
+def read(path, programs, settings=()):
+    """programs: the folder with the programs; settings: KEY=VALUE in place of what the file says. Returns the plan and the histories it
+    names: {stage/name: source}."""
     path = pathlib.Path(path)
-    given = scene_text.read(path)
+    given = changed(scene_text.read(path), settings)
     _refuse_unknown(given, KEYS, path)
     if "dry" not in given:
         raise Fault(f"{path}: needs [dry], the stage that makes the granules")
@@ -153,7 +180,11 @@ def read(path, programs):
     if not isinstance(jobs, int) or jobs < 1:
         raise Fault(f"{path}: jobs: how many runs side by side, 1 or more")
     name = given.get("name", path.stem)
-    return Plan(path, name, stages, _points(given, path, stages, units), jobs, units), histories
+    points = _points(given, path, stages, units)
+    for stage in stages:
+        names = {point[key]: None for point, _ in points if (key := f"{stage}.scene") in point}
+        stages[stage]["scenes"] = {name: _stage(stage, given[stage], path, units[stage], histories, name) for name in names}
+    return Plan(path, name, stages, points, jobs, units), histories
 
 
 def realisation(plan, point, seeds, replicate):
@@ -163,7 +194,9 @@ def realisation(plan, point, seeds, replicate):
         if of["count"] is not None and replicate >= of["count"]:
             continue
         prefix = f"{stage}."
-        scene = scene_text.changed(of["scene"], {key.removeprefix(prefix): value for key, value in point.items() if key.startswith(prefix)})
+        varied = {key.removeprefix(prefix): value for key, value in point.items() if key.startswith(prefix)}
+        of = of["scenes"][varied.pop("scene")] if "scene" in varied else of
+        scene = scene_text.changed(of["scene"], varied)
         if stage == "dry" and isinstance(seeds, list):
             scene = scene_text.changed(scene, {"run.seed": seeds[replicate]})
             id = identity(stage, scene)
@@ -175,7 +208,8 @@ def realisation(plan, point, seeds, replicate):
             if stage == "stress" and scene_text.value_of(scene, "run.seed") is None:  # of its random orientations
                 scene = scene_text.changed(scene, {"run.seed": seed_of(id)})
         runs.append(Run(stage, scene, id, runs[0] if runs else None))
-    return Realisation(point, replicate, runs)
+    number = seeds[replicate] if isinstance(seeds, list) else replicate + 1
+    return Realisation(point, replicate, point.get("dry.scene", plan.stages["dry"]["name"]), number, runs)
 
 
 def realisations(plan, more=None):

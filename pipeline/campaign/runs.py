@@ -4,6 +4,7 @@ A run is finished if its file, under the name of its identity, holds the scene t
 report stands beside it. An unfinished one is given to its program again, which goes on from the checkpoint if there is one.
 """
 
+import collections
 import concurrent.futures
 import dataclasses
 import hashlib
@@ -21,6 +22,8 @@ import whole
 from plan import PROGRAMS
 from scene_text import Fault
 
+CLUSTER_WORDS = ("srun: ", "slurmstepd: ")  # what Slurm adds to the words of a program
+
 
 @dataclasses.dataclass
 class Failure:
@@ -35,10 +38,14 @@ def sha256(path):
 
 
 class Runs:
-    def __init__(self, folder, programs, launcher=()):
-        self.folder, self.programs, self.launcher = folder, programs, list(launcher)
+    def __init__(self, folder, programs, launcher=(), fresh=False):
+        """launcher: words before every program, as of a cluster; fresh: what is older than its program is made again."""
+        self.folder, self.programs, self.launcher, self.fresh = folder, programs, list(launcher), fresh
         self.lock, self.running, self.stopped = threading.Lock(), set(), None
+        self.making = collections.defaultdict(threading.Lock)  # id: a granule that two points share is made once
         self.failures = {}  # id -> Failure
+        self.messages = collections.Counter()  # line that runs which ended well said -> of how many
+        self.described = set()  # kinds of granules
         self.done = 0       # runs made now
 
     def path(self, run, ending=".h5"):
@@ -47,6 +54,8 @@ class Runs:
     def is_finished(self, run):
         file, report = self.path(run), self.path(run, ".json")
         if not file.is_file() or not report.is_file() or report.stat().st_mtime_ns < file.stat().st_mtime_ns:
+            return False
+        if self.fresh and file.stat().st_mtime_ns < (self.programs / PROGRAMS[run.stage]).stat().st_mtime_ns:
             return False
         try:
             with h5py.File(file) as found:
@@ -72,15 +81,18 @@ class Runs:
         """All runs of a granule; those after one that failed are left out. Whether any had to be made."""
         started = False
         for run in realisation.runs:
-            if self.stopped is not None:
-                break
-            if run.parent is not None and run.parent.id in self.failures:
-                continue
-            if not self.is_finished(run):
-                self.write_scene(run, [f"{run.stage} {run.id}, granule {realisation.replicate + 1} of its point",
-                                       *(f"{key} = {value}" for key, value in realisation.point.items())])
-                self.start(run)
-                started = True
+            with self.lock:
+                making = self.making[run.id]
+            with making:
+                if self.stopped is not None:
+                    break
+                if run.id in self.failures or (run.parent is not None and run.parent.id in self.failures):
+                    continue
+                if not self.is_finished(run):
+                    self.write_scene(run, [f"{run.stage} {run.id}, granule {realisation.replicate + 1} of its point",
+                                           *(f"{key} = {value}" for key, value in realisation.point.items())])
+                    self.start(run)
+                    started = True
         return started
 
     def start(self, run):
@@ -99,9 +111,13 @@ class Runs:
             if self.stopped is not None:
                 return
             self.done += 1
+            lines = said.strip().splitlines()
+            own = [line for line in lines if not line.startswith(CLUSTER_WORDS)]
             if process.returncode:
-                words = said.strip().splitlines()
-                self.failures[run.id] = Failure(run.stage, process.returncode, words[-1] if words else "said nothing")
+                self.path(run, ".json").unlink(missing_ok=True)  # whatever it left is not finished
+                self.failures[run.id] = Failure(run.stage, process.returncode, (own or lines or ["said nothing"])[-1])
+            else:
+                self.messages.update(own)
 
     def stop(self, signum, _=None):
         with self.lock:
@@ -127,13 +143,16 @@ class Runs:
             raise SystemExit(128 + self.stopped)
 
     def check(self, realisation, granule):
-        """The scenes of one point are right before anything runs; granule: any, for the stages that take one."""
+        """The scenes of one point are right before anything runs; granule: any, for the stages that take one. What each scene means is said once."""
         for run in realisation.runs:
             if self.is_finished(run):
                 continue
             self.write_scene(run, [f"{run.stage} {run.id}"])
-            command = [str(self.programs / PROGRAMS[run.stage]), str(self.path(run, ".toml")), *([str(granule)] if run.parent else []), "--check", "--quiet"]
+            command = [str(self.programs / PROGRAMS[run.stage]), str(self.path(run, ".toml")), *([str(granule)] if run.parent else []), "--check"]
             done = subprocess.run(command, text=True, capture_output=True)
+            if not done.returncode and not run.parent and realisation.kind not in self.described:
+                self.described.add(realisation.kind)
+                print(done.stderr, end="", file=sys.stderr)
             if done.returncode == 2:
                 words = done.stderr.strip().splitlines()
                 point = ", ".join(f"{key} = {value}" for key, value in realisation.point.items()) or "the base scene"

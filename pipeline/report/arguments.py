@@ -11,6 +11,7 @@ import os
 import pathlib
 import sys
 
+import campaign_files
 import whole
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "python"))  # the module crumble; installed it is found anyway
@@ -55,6 +56,18 @@ def group(text):
     return name, [file(one) for one in names.split(",")]
 
 
+def groups_or_table(text, of):
+    """A group, or from the table of a campaign one or all kinds of granules: files of a stage with an ending, of = ("dry", ".json")."""
+    if of is None or not text.endswith(".csv"):
+        return [group(text)]
+    wanted, _, name = text.rpartition("=")
+    stage, ending = of
+    found = campaign_files.by_kind(file(name), stage)
+    if not found.keys() >= {*filter(None, [wanted])}:
+        raise argparse.ArgumentTypeError(f"{name}: has no granules {wanted}; there are {', '.join(found)}")
+    return [(kind, [granule.file(stage, ending) for granule in granules]) for kind, granules in found.items() if wanted in ("", kind)]
+
+
 class Groups(argparse.Action):
     """Gathers groups in a dictionary, in their order."""
 
@@ -64,7 +77,7 @@ class Groups(argparse.Action):
 
     def __call__(self, parser, namespace, values, option_string=None):
         found = {}
-        for name, files in values:
+        for name, files in (one for several in values for one in several):
             if self.names is not None and name not in self.names:
                 raise argparse.ArgumentError(self, f"{name}: not known; there are {', '.join(self.names)}")
             if name in found:
@@ -73,11 +86,12 @@ class Groups(argparse.Action):
         setattr(namespace, self.dest, found)
 
 
-def add_groups(parser, of, name="groups", names=None):
-    """name: of the option, if it is one; names: those that a group may have, if not all."""
-    parser.add_argument(name, type=group, nargs="+", action=Groups, names=names, metavar="NAME=FILE,...",
+def add_groups(parser, of, name="groups", names=None, campaign=None):
+    """name: of the option, if it is one; names: those that a group may have, if not all; campaign: (stage, ending) of the files to take where the
+    table of a campaign is given."""
+    parser.add_argument(name, type=lambda text: groups_or_table(text, campaign), nargs="+", action=Groups, names=names, metavar="NAME=FILE,...",
                         **({"default": {}} if name.startswith("-") else {}),
-                        help=of + (f"; NAME is one of {', '.join(names)}" if names else ""))
+                        help=of + (f"; NAME is one of {', '.join(names)}" if names else "") + ("; or the table granules.csv of a campaign, NAME= for one kind alone" if campaign else ""))
 
 
 def add_files(parser, of, name="FILE"):

@@ -7,7 +7,7 @@ Estimators: that of the paper (a particle with the 20 before and the 20 after it
 are over that of all particles spread evenly over the volume compared, times (1 - theta)^(-3/2): Gamma of the paper.
 Beside FILE.md are written FILE.csv and FILE.svg. The Peclet number is that of the granules.
 
-    concentration.py compact=compact-1.h5,compact-2.h5 intermediate=intermediate-1.h5 --dryer build/release/bin/dryer -o figure5.md
+    concentration.py compact=results/table2/granules.csv --dryer build/release/bin/dryer -o figure5.md
 """
 
 import csv
@@ -166,7 +166,7 @@ def draw(found, out):
 def command_line():
     parser = arguments.parser(__doc__, "the table", "FILE.md")
     parser.add_argument("--dryer", type=arguments.file, required=True, help="the program, which computes the continuum model")
-    arguments.add_groups(parser, "granules of one Peclet number each, files of dryer")
+    arguments.add_groups(parser, "granules of one Peclet number each, files of dryer", campaign=("dry", ".h5"))
     return parser
 
 

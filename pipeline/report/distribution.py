@@ -3,7 +3,7 @@
 Radius in nm from the centre of mass against the fraction of particles within it: mean over the granules, lowest and highest.
 Beside FILE.svg is written FILE-NAME.csv for each group.
 
-    distribution.py hollow=hollow-1.h5,hollow-2.h5 compact=compact-1.h5 -o figure3.svg
+    distribution.py results/table2/granules.csv -o figure3.svg
 """
 
 import numpy
@@ -30,7 +30,7 @@ def distribution(names):
 
 def command_line():
     parser = arguments.parser(__doc__, "the figure", "FILE.svg")
-    arguments.add_groups(parser, "rows of Table 2, each with its granules, files of dryer", names=published.GRANULES)
+    arguments.add_groups(parser, "rows of Table 2, each with its granules, files of dryer", names=published.GRANULES, campaign=("dry", ".h5"))
     return parser
 
 

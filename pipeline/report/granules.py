@@ -2,6 +2,7 @@
 
 Its rows are hollow (Pe -> infinity), intermediate (Pe = 10) and compact (Pe = 1).
 
+    granules.py results/table2/granules.csv -o granules.txt
     granules.py hollow=hollow-1.json,hollow-2.json compact=compact-1.json -o granules.txt
 """
 
@@ -127,7 +128,7 @@ def show(rows):
     for row, reports in rows.items():
         granules = "granule" if len(reports) == 1 else "granules"
         program = f"{reports[0]['program']} {reports[0]['version']}"
-        print(f"{len(reports)} {row} {granules} ({published.GRANULES[row]['title']}), {program}, {reports[0]['scene']}\n")
+        print(f"{len(reports)} {row} {granules} ({published.GRANULES[row]['title']}), {program}\n")
         print("\n".join(table(row, reports) + [""] + notes(row, reports)) + "\n")
     print("mean: over the seeds (cpu s: the sum). spread: standard deviation between seeds. ±95%: half of the 95 % interval\n"
           "    of the mean; of two granules stand the lowest and the highest.\n"
@@ -138,7 +139,7 @@ def show(rows):
 
 def command_line():
     parser = arguments.parser(__doc__, "the table (default: printed)", required=False)
-    arguments.add_groups(parser, "rows of Table 2, each with its reports of dryer", names=published.GRANULES)
+    arguments.add_groups(parser, "rows of Table 2, each with its reports of dryer", names=published.GRANULES, campaign=("dry", ".json"))
     return parser
 
 

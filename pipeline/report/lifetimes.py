@@ -2,13 +2,14 @@
 
 Lifetime and integrator are those of the reports. Beside FILE.md are written FILE.csv and FILE.svg, which is Fig. 4.
 
-    lifetimes.py overdamped-3ms-1.json overdamped-3ms-2.json overdamped-25ms-1.json overdamped-25ms-2.json -o table3.md
+    lifetimes.py results/table3/granules.csv -o results/table3/table3.md
 """
 
 import json
 import statistics
 
 import arguments
+import campaign_files
 from figure import BLUE, ORANGE, pyplot, save
 from interval import half_width
 from table import print_markdown, write_records
@@ -81,12 +82,12 @@ def draw(table, out):
 
 def command_line():
     parser = arguments.parser(__doc__, "the table", "FILE.md")
-    arguments.add_files(parser, "reports of dryer, two or more for each lifetime and integrator", "REPORT.json")
+    parser.add_argument("table", type=arguments.file, metavar="GRANULES.csv", help="of the campaign, with two or more granules for each lifetime and integrator")
     return parser
 
 
 def main(options):
-    table = list(rows([read(path) for path in options.files]))
+    table = list(rows([read(granule.file("dry", ".json")) for granule in campaign_files.read(options.table)]))
     write_records(options.out.with_suffix(".csv"), table)
     draw(table, options.out.with_suffix(".svg"))
     with arguments.printing_to(options.out):

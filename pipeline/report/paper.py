@@ -2,11 +2,9 @@
 
 Tables and figures that other scripts wrote are taken from the folder of FILE.html; all of them become part of the page.
 
-    paper.py hollow=hollow-1.json,hollow-2.json adhesive=adhesive-1.json --broken hollow=breakup/hollow-1.json -o paper.html
+    paper.py results/table2/granules.csv results/strength/granules.csv results/broken/granules.csv -o results/paper.html
 """
 
-import csv
-import html
 import json
 import math
 import pathlib
@@ -14,14 +12,12 @@ import statistics
 
 import arguments
 import breakups
+import campaign_files
 import published
 from interval import half_width
 from page import as_html, figure, from_markdown, write
 
 TITLES = {name: row["title"] for name, row in published.GRANULES.items()} | {"adhesive": "bond of 42 kT, Pe = 10, N = 85"}
-# Columns of strength/table.csv as the page names them.
-STRENGTH = {"population": "granules", "agglomerates": "n", "coordination": "coordination", "flow": "orientation", "n_max": "N_max",
-            "paper_n_max": "paper", "error_percent": "error of one, %", "critical_stress_pa": "breaks at, Pa", "paper_pa": "paper"}
 STORED = pathlib.Path(__file__).parent.parent / "verify" / "brownian.json"
 
 
@@ -45,34 +41,20 @@ def stored_error(row):
     return f"d_c {low:+.1f} to {high:+.1f} % of full stiffness (stored)"
 
 
-def from_csv(path):
-    if not path.exists():
-        return []
-    with path.open(newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
-
-
-def of_population(row, key, ending):
-    """Mean with half of its interval, of two granules lowest and highest, or the one value: as mean() says it."""
-    if int(row["agglomerates"]) == 2:
-        return f"{row['lowest' + ending]} to {row['highest' + ending]}"
-    half = row["half_width" + ending]
-    return row[key] if half == "nan" else f"{row[key]} ± {half}"
 
 
 class Page:
-    def __init__(self, results, dried, broken):
-        """dried, broken: {kind: [report]}, reports by dryer and by breaker."""
-        self.results, self.dried, self.broken, self.parts = results, dried, broken, []
+    def __init__(self, results, table2, strength, broken):
+        """Tables of campaigns. Of kinds that Table 2 has not, those that were loaded stand for it."""
+        dried = campaign_files.by_kind(strength) | campaign_files.by_kind(table2)
+        self.results, self.dried, self.loaded, self.broken, self.parts = results, dried, list(campaign_files.read(strength, "stress")), \
+            list(campaign_files.read(broken, "stress", "breakup")), []
 
     def add(self, *parts):
         self.parts += parts
 
     def granules(self, name):
-        return [load(path) for path in self.dried.get(name, [])]
-
-    def all_broken(self):
-        return [path for paths in self.broken.values() for path in paths]
+        return [load(granule.file("dry", ".json")) for granule in self.dried.get(name, [])]
 
     def table2(self):
         rows = []
@@ -99,7 +81,7 @@ class Page:
         ours, held = ([run["results"]["coordination"] for run in self.granules(name)] for name in ("compact", "adhesive"))
         if not ours or not held:
             return
-        broken = [breakups.load(path) for path in self.broken.get("adhesive", [])]
+        broken = [breakups.load(granule) for granule in self.broken if granule.kind == "adhesive"]
         ends = "".join(f" One of them breaks {found['results']['breakage']}, at {found['results']['critical_stress_pa'] / rigid:.2f} "
                        "of its rigid prediction." for found, rigid in broken if rigid is not None)
         self.add(f"<p>Coordination at Pe = 1: {statistics.fmean(ours):.2f}, the paper {published.GRANULES['compact']['coordination']}. "
@@ -109,23 +91,19 @@ class Page:
 
     def strength(self):
         folder = self.results / "strength"
-        rows = [row | {"population": TITLES.get(row["population"], row["population"]), "n_max": of_population(row, "n_max", ""),
-                       "critical_stress_pa": of_population(row, "critical_stress_pa", "_pa")} for row in from_csv(folder / "table.csv")]
-        self.add("<h2>Section 3.4, Figs 8 and 9: rigid populations</h2>",
-                 as_html(STRENGTH.values(), [[row[key] for key in STRENGTH] for row in rows]),
+        self.add("<h2>Section 3.4, Figs 8 and 9: rigid populations</h2>", from_markdown(folder / "table.md"),
                  "<p>N_max in 6πμγ̇a². Elongation in the orientation to which the granule settles and in the worst; shear: largest over an "
-                 "orbit, mean over orbits. ±: half of the 95 % interval of the mean; two granules: lowest to highest. Error: the largest that rigidstress states for one "
-                 "granule.</p>",
+                 "orbit, mean over orbits.</p>",
                  figure(folder / "fig8.svg", "Fig. 8. Tension of each contact in elongation. Open symbols: one granule of each kind; dots: all others."),
                  figure(folder / "fig9.svg", "Fig. 9. Largest tension in shear. Dotted: mean of the largest over each orbit, band: its 95 % interval; of two granules lowest and highest."))
 
     def breakups(self):
-        folder = self.results / "breakup"
-        self.add("<h2>Section 3.3, Figs 6 and 7: breakup of flexible granules</h2>", from_markdown(folder / "paper.md"),
+        folder = self.results / "broken"
+        self.add("<h2>Section 3.3, Figs 6 and 7: breakup of flexible granules</h2>", from_markdown(folder / "table.md"),
                  "<p>Changes are those at 1 % less stress. Error: difference to doubled tolerance.</p>")
-        for path in self.all_broken():
-            self.add(figure(path.with_name(f"{path.stem}-strip.png"), f"Fig. 6, {path.stem}: snapshots at growing flow stress."),
-                     figure(path.with_name(f"{path.stem}-course.svg"), f"Fig. 7, {path.stem}."))
+        for granule in self.broken:
+            self.add(figure(folder / f"{granule.name}-strip.png", f"Fig. 6, {granule.name}: snapshots at growing flow stress."),
+                     figure(folder / f"{granule.name}-course.svg", f"Fig. 7, {granule.name}."))
 
     def effort(self):
         rows = []
@@ -137,20 +115,18 @@ class Page:
                 error = stored_error(name) if None in errors else f"d_c {100 * max(errors):.2g} %"
                 rows.append([label, f"{published.DRYING_HOURS[name]} h", f"{cpu:.3g} s", f"{wall:.3g} s",
                              f"{published.DRYING_HOURS[name] * 3600 / cpu:.2g}", error])
-        for path in self.all_broken():
-            run = load(path)
+        for granule in self.broken:
+            run = load(granule.file("breakup", ".json"))
             cpu, error = run["cpu_s"], run["errors"]["critical_stress_relative"]["value"]
-            rows.append([f"breakup, {path.stem}", f"{published.BREAKUP_HOURS} h on {published.BREAKUP_THREADS} threads", f"{cpu:.3g} s",
+            rows.append([f"breakup, {granule.name}", f"{published.BREAKUP_HOURS} h on {published.BREAKUP_THREADS} threads", f"{cpu:.3g} s",
                          f"{run['wall_s']:.3g} s", f"{published.BREAKUP_HOURS * published.BREAKUP_THREADS * 3600 / cpu:.2g}",
                          "not estimated" if error is None else f"critical stress {100 * error:.1g} %"])
-        rigid = from_csv(self.results / "strength/table.csv")
+        rigid = [load(granule.file("stress", ".json")) for granule in self.loaded]
         if rigid:
-            populations = {row["population"]: row for row in rigid}.values()
-            count = sum(int(row["agglomerates"]) for row in populations)
-            cpu = sum(int(row["agglomerates"]) * float(row["cpu_s"]) for row in populations) / count
+            cpu = statistics.fmean(run["cpu_s"] for run in rigid)
             rows.append(["rigid analysis, all flows", "few minutes", f"{cpu:.3g} s", "–",
                          f"{60 * published.RIGID_MINUTES / cpu:.2g} (of {published.RIGID_MINUTES} min)",
-                         f"N_max {max(float(row['error_percent']) for row in rigid):.2g} %"])
+                         f"N_max {100 * max(run['errors']['n_max_relative']['value'] for run in rigid):.2g} %"])
         self.add("<h2>Section 3.5: computational effort</h2>",
                  as_html(["one run", "paper", "ours, CPU", "ours, wall", "ratio of core time", "our error"], rows),
                  "<p>The paper: Intel Xeon E5-2630 v4. Ours: means of the runs of this page, side by side on the cores of this machine.</p>")
@@ -158,14 +134,14 @@ class Page:
 
 def command_line():
     parser = arguments.parser(__doc__, "the page", "FILE.html")
-    arguments.add_groups(parser, "granules with their reports of dryer", names=TITLES)
-    arguments.add_groups(parser, "those that were broken with their reports of breaker", "--broken", TITLES)
+    for name, of in (("table2", "Table 2"), ("strength", "section 3.4"), ("broken", "section 3.3")):
+        parser.add_argument(name, type=arguments.file, metavar=f"{name.upper()}.csv", help=f"table of the granules of {of}")
     return parser
 
 
 def main(options):
     out, results = options.out, options.out.parent
-    page = Page(results, options.groups, options.broken)
+    page = Page(results, options.table2, options.strength, options.broken)
     page.add("<h1>Micromechanics and strength of agglomerates produced by spray drying, computed again</h1>",
              "<p>Every table and figure of Vasquez Giuliano, Buffo, Vanni and Frungieri (2022), JCIS Open 8, 100068, by Crumble, with our "
              "numbers and their errors beside the paper's.</p>",
@@ -173,8 +149,8 @@ def main(options):
              '<p><a href="granules.html">Turn them, cut them open and see them break</a>: a page with a 3D view.</p>')
     page.table2()
     page.difference()
-    page.add("<h2>Table 3 and Fig. 4: the lifetime at high Péclet numbers</h2>", from_markdown(results / "lifetime/table3.md"),
-             figure(results / "lifetime/table3.svg", "Fig. 4. Bars: 95 % interval of the mean; of two granules lowest and highest."),
+    page.add("<h2>Table 3 and Fig. 4: the lifetime at high Péclet numbers</h2>", from_markdown(results / "table3/table3.md"),
+             figure(results / "table3/table3.svg", "Fig. 4. Bars: 95 % interval of the mean; of two granules lowest and highest."),
              "<h2>Fig. 5: particles and the continuum model</h2>", from_markdown(results / "figure5.md"),
              figure(results / "figure5.svg", "Fig. 5. Dashed: continuum, through the same estimator; bands and bars: two standard errors. Above as the "
                     "paper draws it, below on the radius that centres reach. Centres stay about 0.9 a inside the surface, "

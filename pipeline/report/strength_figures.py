@@ -1,31 +1,48 @@
-"""Fig 8 or 9 of Vasquez Giuliano et al. (2022) from the table of its points that strength.py writes.
+"""Figs 8 and 9 of Vasquez Giuliano et al. (2022), from the granules of a campaign that were loaded in elongation and shear.
 
-    strength_figures.py fig8.csv -o fig8.svg
+In the folder are written fig8.svg (tension of every contact against its distance from the centre of mass, settled in elongation), fig9.svg (N_max
+of the most loaded orbit against time, in shear), and the points of both as CSV.
+
+    strength_figures.py results/strength/granules.csv -o results/strength
 """
 
-import csv
+import json
+import math
 import statistics
 
 import numpy
 
 import arguments
+import campaign_files
+import crumble
 from figure import BLUE, GREEN, ORANGE, pyplot, save
 from interval import half_width
+from table import write_csv
 
 STYLES = {"compact": (ORANGE, "o", "--"), "hollow": (BLUE, "s", "-"), "adhesive": (GREEN, "^", "-.")}
 OTHER = (GREEN, "^", "-.")
 UNIT = "/(6πμγ̇a²)"
 
 
-def read(path):
-    """{population: {agglomerate: array of two columns}} in the order of the file; name of the first column."""
+def unit(granule):
+    """6 pi a^2 times the flow stress of 1 Pa that stored tensions belong to, N."""
+    report = json.loads(granule.file("stress", ".json").read_text())
+    return 6 * math.pi * (1e-9 * report["results"]["particle_radius_nm"]) ** 2
+
+
+def read(path, flow, abscissa, ordinate):
+    """{kind: {granule: array of two columns}}"""
     found = {}
-    with path.open(newline="") as file:
-        rows = csv.reader(file)
-        abscissa = next(rows)[2]
-        for population, agglomerate, x, y in rows:
-            found.setdefault(population, {}).setdefault(agglomerate, []).append((float(x), float(y)))
-    return {p: {name: numpy.array(points) for name, points in of.items()} for p, of in found.items()}, abscissa
+    for granule in campaign_files.read(path, "stress"):
+        loads = crumble.read(granule.file("stress", ".h5"))
+        found.setdefault(granule.kind, {})[granule.name] = numpy.array(
+            [loads[f"flows/{flow}/{abscissa}"], loads[f"flows/{flow}/{ordinate}"] / unit(granule)]).T
+    return found
+
+
+def write(path, heading, found):
+    write_csv(path, ["kind", "granule", *heading], ([kind, name, f"{x:.5g}", f"{y:.5g}"] for kind, granules in found.items()
+                                                    for name, points in granules.items() for x, y in points))
 
 
 def tension_against_radius(found, out):
@@ -61,14 +78,18 @@ def tension_in_time(found, out):
 
 
 def command_line():
-    parser = arguments.parser(__doc__, "the figure", "FILE.svg")
-    parser.add_argument("points", type=arguments.file, metavar="POINTS.csv", help="fig8.csv or fig9.csv")
+    parser = arguments.parser(__doc__, "where figures and points go", "FOLDER")
+    parser.add_argument("table", type=arguments.file, metavar="GRANULES.csv", help="of the campaign")
     return parser
 
 
 def main(options):
-    found, abscissa = read(options.points)
-    (tension_against_radius if abscissa == "radial_position_nm" else tension_in_time)(found, options.out)
+    contacts = read(options.table, "elongation", "radial_position", "normal_force")
+    instants = read(options.table, "shear", "time", "max_tension")
+    write(options.out / "fig8.csv", ["radial_position [nm]", "tension [6 pi mu gamma_dot a^2]"], contacts)
+    write(options.out / "fig9.csv", ["gamma_dot t [1]", "n_max [6 pi mu gamma_dot a^2]"], instants)
+    tension_against_radius(contacts, options.out / "fig8.svg")
+    tension_in_time(instants, options.out / "fig9.svg")
 
 
 if __name__ == "__main__":

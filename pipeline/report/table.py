@@ -5,8 +5,9 @@ import csv
 import whole
 
 
-def write_csv(path, heading, rows, comments=()):
-    with whole.replacing(path) as temporary, open(temporary, "w", encoding="utf-8", newline="") as file:
+def write_csv(path, heading, rows, comments=(), keep=False):
+    """keep: a file that holds this already stays as old as it is."""
+    with whole.replacing(path, keep) as temporary, open(temporary, "w", encoding="utf-8", newline="") as file:
         file.writelines(f"# {comment}\n" for comment in comments)
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(heading)

@@ -1,7 +1,7 @@
 #!/bin/bash
 # A visitor's first five minutes, as README tells them: a fresh clone, the first command, its page opened, one key of a scene changed, run
 # again, both compared in the terminal and on a page. Pages are opened in headless Chromium, where it is installed (pipeline/packages.sh browser).
-# Words behind the name go to make: BUILD=FOLDER takes programs that are built, SEEDS="1" COMPACT= dries less, VIEW=: installs nothing.
+# Words behind the name go to make: BUILD=FOLDER takes programs that are built, SEEDS="1" KINDS=hollow dries less, VIEW=: installs nothing.
 set -euo pipefail
 if [[ ${1-} == -h || ${1-} == --help ]]; then
   sed -n '2,/^[^#]/s/^# //p' "$0"

@@ -19,10 +19,9 @@ for program in dryer agglomerate rigidstress breaker; do
 done
 """
 
-# Stands for the dryer: writes the file and then the report; BREAK=<seed> fails after both stand under their final names.
+# Stands for the dryer: writes the file and then the report.
 DRYER = """#!/bin/bash
 echo "115 particles in a droplet" >&2
-[[ $2 != --check ]] || exit "${SCENE_CODE:-0}"
 echo "dryer $*" >> "$LOG"
 scene=$1
 seed=1
@@ -40,7 +39,6 @@ cat > "$report" << EOF
  "peak_rss_bytes": 1, "steps": 10, "results": {"d_c_nm": 160, "h_c_over_d_c": 0.3, "contacts": 17$seed,
  "coordination": 3, "fragments": 1}, "errors": {"d_c_relative": {"value": 0.01, "how": "halving"}}, "left_out": []}
 EOF
-[[ ${BREAK:-} != "$seed" ]] || exit 1
 echo "seed $seed: a message" >&2
 """
 
@@ -90,8 +88,8 @@ class Sandbox(unittest.TestCase):
     def run_in_sandbox(self, *command, **environment):
         # As cleared an environment as the stand-ins allow.
         env = {"PATH": f"{self.bin}:/usr/bin:/bin", "HOME": os.environ.get("HOME", "/"), "LOG": str(self.log),
-               "PROGRAMS": str(self.programs), **environment}
-        return subprocess.run(command, cwd=self.root, env=env, text=True, capture_output=True, timeout=60)
+               "PROGRAMS": str(self.programs), "PYTHONDONTWRITEBYTECODE": "1", **environment}
+        return subprocess.run(command, cwd=self.root, env=env, text=True, capture_output=True, timeout=300)
 
     def make(self, *arguments, **environment):
         return self.run_in_sandbox("make", "-C", "pipeline", *arguments, **environment)

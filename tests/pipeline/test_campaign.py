@@ -64,7 +64,7 @@ class InAFolder(unittest.TestCase):
     def calls(self):
         """Since the last question."""
         path = self.programs / "calls"
-        lines = path.read_text().splitlines() if path.exists() else []
+        lines = [line for line in path.read_text().splitlines() if line != "end"] if path.exists() else []
         path.write_text("")
         return lines
 
@@ -163,6 +163,29 @@ class Identities(InAFolder):
         self.assertEqual(len({one.runs[0].id for one in made}), 3)  # each granule is dried once
         self.assertEqual(len({one.runs[-1].id for one in made}), 12)
 
+    def test_scenes_are_varied_by_name_and_a_granule_is_the_same_in_every_campaign(self):
+        self.write("other.toml", "[particle]\nradius = 1e-8\nnumber = 60\n")
+        plan = self.plan(PLAIN + "set = {\"particle.brownian_motion\" = true}\n[vary]\n\"dry.scene\" = [\"other\", \"dry\"]\n")
+        made = plans.realisations(plan)
+        self.assertEqual([(one.kind, one.number, one.runs[0].scene["particle"]["number"]) for one in made], [(*of, 60) for of in (("other", 1), ("other", 2), ("other", 3))] +
+                         [(*of, 40) for of in (("dry", 1), ("dry", 2), ("dry", 3))])
+        self.assertTrue(all(one.runs[0].scene["particle"]["brownian_motion"] for one in made))
+        alone = plans.realisations(self.plan(PLAIN + "set = {\"particle.brownian_motion\" = true}\n"))
+        self.assertEqual([one.runs[0].id for one in alone], [one.runs[0].id for one in made[3:]])
+        self.assertEqual(self.run_it(PLAIN + "[vary]\n\"dry.scene\" = [\"absent\"]\n")[0], 2)
+
+    def test_settings_stand_in_place_of_what_the_file_says(self):
+        path = self.write("my.toml", VARIED)
+        plan, _ = plans.read(path, self.programs, ["seeds=[4,5]", "dry.particle.number=44", "vary={\"dry.droplet.peclet\"=[7]}", "name=short"])
+        (one, other) = plans.realisations(plan)
+        self.assertEqual((plan.name, one.point, [of.runs[0].scene["run"]["seed"] for of in (one, other)], one.runs[0].scene["particle"]["number"]),
+                         ("short", {"dry.droplet.peclet": 7}, [4, 5], 44))
+        for setting in ("seeds", "sed=3", "dri.particle.number=4"):
+            with self.subTest(setting=setting), self.assertRaisesRegex(scene_text.Fault, "must be a key"):
+                plans.read(path, self.programs, [setting])
+        with self.assertRaisesRegex(scene_text.Fault, "did you mean 'particle.number'"):
+            plans.read(path, self.programs, ["dry.particle.nunber=44"])
+
     def test_faults_name_file_and_key(self):
         for text, words in (
                 (PLAIN + "[vary]\n\"dry.droplet.peclt\" = [1]\n", "my.toml: .vary.: unknown key 'droplet.peclt' of dryer; did you mean 'droplet.peclet'"),
@@ -213,6 +236,47 @@ class Running(InAFolder):
         next((self.folder / "out/dry").glob("*.h5")).unlink()
         self.assertEqual(self.run_it(text)[0], 0)
         self.assertEqual([call.split()[0] for call in self.calls()], ["dryer"])  # the same bytes: the stress file is that of them
+
+    def test_a_granule_that_two_points_share_is_dried_once_even_where_they_run_side_by_side(self):
+        text = PLAIN.replace("3", "1") + "[stress]\nscene = \"stress.toml\"\n[vary]\n\"stress.particle.fragments\" = [\"each\", \"refuse\"]\n"
+        self.assertEqual(self.run_it(text, "--jobs", "2")[0], 0)
+        self.assertEqual(sorted(call.split()[0] for call in self.calls()), ["dryer", "rigidstress", "rigidstress"])
+
+    def test_campaigns_that_share_their_files_make_them_once_and_link_them_by_names(self):
+        shared, names = str(self.folder / "files"), self.folder / "names"
+        self.assertEqual(self.run_it(PLAIN, "--files", shared, "--names", str(names))[0], 0)
+        self.calls()
+        self.assertEqual(self.run_it(PLAIN.replace("3", "4") + "[breakup]\nscene = \"break.toml\"\ncount = 1\n", "--files", shared, "--names", str(names), "-o", str(self.folder / "two"))[0], 0)
+        self.assertEqual(sorted(call.split()[0] for call in self.calls()), ["breaker", "dryer"])
+        self.assertEqual(sorted(str(path.relative_to(names)) for path in names.rglob("*.h5")), ["breakup/dry-1.h5", *(f"dry-{k}.h5" for k in (1, 2, 3, 4))])
+        self.assertTrue((names / "dry-1.h5").resolve().is_relative_to(self.folder.resolve() / "files/dry"))
+
+    def test_parts_make_every_file_once_and_no_table(self):
+        for k in (1, 2, 3):
+            self.assertEqual(self.run_it(PLAIN.replace("3", "9"), "--part", f"{k}/3")[0], 0)
+        self.assertEqual(len(self.calls()), 9)
+        self.assertFalse((self.folder / "out/granules.csv").exists())
+        self.assertEqual(self.run_it(PLAIN.replace("3", "9"))[0], 0)
+        self.assertEqual((len(self.calls()), len(self.table())), (0, 9))
+        self.assertRegex(self.run_it(PLAIN, "--part", "4/3")[2], "must be K/N")
+
+    def test_what_is_older_than_its_program_is_made_again_if_that_is_asked(self):
+        self.run_it(PLAIN)
+        self.calls()
+        later = time.time() + 5
+        os.utime(self.programs / "dryer", (later, later))
+        self.run_it(PLAIN)
+        self.assertEqual(self.calls(), [])
+        self.run_it(PLAIN, "--fresh")
+        self.assertEqual(len(self.calls()), 3)
+
+    def test_a_launcher_begins_every_command_and_its_words_are_not_those_of_a_program(self):
+        launcher = self.write("launch", "#!/bin/bash\necho launched >> \"$(dirname \"$0\")/launches\"\n\"$@\" || { code=$?; echo 'srun: error: n1: task 0: Exited with exit code 1' >&2; exit $code; }\n")
+        launcher.chmod(0o755)
+        code, _, said = self.run_it(PLAIN.replace("3", "2") + "[vary]\n\"dry.particle.number\" = [12, 13]\n", "--launcher", str(launcher))
+        self.assertEqual(code, 1)
+        self.assertEqual(len((self.folder / "launches").read_text().split()), 4)
+        self.assertEqual({row["failed"] for row in self.table()}, {"", "dry, exit code 1: particle 3 left the droplet"})
 
     def test_the_table_has_units_hashes_and_errors(self):
         self.run_it(self.THREE)

@@ -13,6 +13,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 BUILD = os.environ.get("CRUMBLE_BUILD", str(ROOT / "build/release"))
 PROGRAMS = ("dryer", "rigidstress", "breaker", "agglomerate")
 TINY = "--set particle.number=12 --set droplet.radius=101e-9"
+TINY_GRANULES = "dry.particle.number=12 dry.droplet.radius=101e-9"
 
 
 class Installation(unittest.TestCase):
@@ -45,7 +46,7 @@ class Installation(unittest.TestCase):
         self.run_there("crumble", "dry", scenes / "hollow.toml", "-o", "a.h5", "--quiet", *TINY.split())
         self.assertEqual(self.run_there("crumble", "file", "check", "a.h5").stdout, "a.h5: valid\n")
         self.run_there("crumble", "stress", scenes / "stress.toml", "a.h5", "-o", "b.h5", "--quiet", "--set", "hydrodynamics.method=fts")
-        table = self.run_there("crumble", "all", "SEEDS=1 2", "COMPACT=", f"ROW_SETTINGS={TINY}").stdout
+        table = self.run_there("crumble", "all", "SEEDS=1 2", "KINDS=hollow", f"ROW_SETTINGS={TINY_GRANULES}").stdout
         self.assertRegex(table, r"(?m)^ *paper +160\.0")
         self.assertTrue((self.work / "crumble-results/hollow-2.h5").exists())
         # Files are named as seen from the folder of the user, who can write in no other.
