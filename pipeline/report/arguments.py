@@ -63,9 +63,7 @@ def groups_or_table(text, of):
     wanted, _, name = text.rpartition("=")
     stage, ending = of
     found = campaign_files.by_kind(file(name), stage)
-    if not found.keys() >= {*filter(None, [wanted])}:
-        raise argparse.ArgumentTypeError(f"{name}: has no granules {wanted}; there are {', '.join(found)}")
-    return [(kind, [granule.file(stage, ending) for granule in granules]) for kind, granules in found.items() if wanted in ("", kind)]
+    return [(kind, [granule.file(stage, ending) for granule in found.get(kind, [])]) for kind in ([wanted] if wanted else found)]
 
 
 class Groups(argparse.Action):

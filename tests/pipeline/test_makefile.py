@@ -124,6 +124,19 @@ class MainJob(Sandbox):
         self.assertEqual(most_at_once(5, "-j5"), 5)
         self.assertEqual(most_at_once(cores), cores)
 
+    def test_a_campaign_of_one_s_own_and_on_a_cluster_by_the_words_before_its_programs(self):
+        (self.root / "my.toml").write_text("seeds = 2\n[dry]\nscene = \"pipeline/scenes/hollow.toml\"\n")
+        self.assertEqual(self.make("campaign", "CAMPAIGN=my.toml").returncode, 0)
+        self.assertTrue((self.root / "pipeline/results/my/summary.md").exists())
+        self.stand_in("srun", '#!/bin/bash\necho "srun $*" >> "$LOG"\nwhile [[ $1 == --* ]]; do shift; done\nexec "$@"\n')
+        self.assertEqual(len(self.runs()), 2)
+        done = self.make("CLUSTER=slurm", "KINDS=hollow", "SEEDS=1 2 3")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        said = self.called("srun")
+        self.assertEqual([sum(f"--job-name={name}" in line for line in said) for name in ("dryer", "make")], [3, 2])  # the table, and its print
+        self.assertEqual(len(self.runs()), 3)
+        self.assertFalse(any("campaign run" in line for line in said))
+
     def test_what_two_tables_want_is_made_once(self):
         self.assertEqual(self.make("results/table2/granules.csv", "SEEDS=1 2", "KINDS=hollow").returncode, 0)
         self.assertEqual(len(self.runs()), 2)
