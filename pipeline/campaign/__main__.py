@@ -66,7 +66,7 @@ def add_common(verb):
     verb.add_argument("campaign", type=arguments.file, metavar="CAMPAIGN.toml")
     verb.add_argument("-o", dest="out", type=pathlib.Path, metavar="FOLDER", required=True, help="where results go")
     verb.add_argument("--programs", type=pathlib.Path, default=ROOT / "build/release/bin", metavar="FOLDER", help="with dryer, rigidstress and breaker")
-    verb.add_argument("--jobs", type=int, help="runs side by side (default: the key 'jobs', else the number of processors)")
+    verb.add_argument("--jobs", type=int, default=len(os.sched_getaffinity(0)), help="runs side by side (default: the number of processors)")
     verb.add_argument("--set", dest="settings", action="append", default=[], metavar="KEY=VALUE",
                       help="in place of what the file says: a key of the campaign or of a scene, as in seeds=5 or dry.particle.number=40")
     verb.add_argument("--launcher", type=arguments.file, metavar="COMMAND", help="begins the command of every run: pipeline/cluster/slurm makes it a job")
@@ -151,7 +151,7 @@ def granules(options):
             raise Fault(f"{options.campaign}: {fault}") from None
     while True:
         realisations = plans.realisations(plan, more)
-        runs.make_all(part(options.part, realisations) if options.part else realisations, options.jobs or plan.jobs, Progress())
+        runs.make_all(part(options.part, realisations) if options.part else realisations, options.jobs, Progress())
         if options.names:
             link_names(options.names, runs, realisations)
         rows = [outcome.row(one, runs, running.sha256) for one in realisations]

@@ -3,7 +3,6 @@
 import dataclasses
 import difflib
 import hashlib
-import os
 import pathlib
 import tomllib
 
@@ -13,7 +12,7 @@ from scene_text import Fault, canonical
 
 # Stage of a campaign file -> program. In the order in which they follow each other.
 PROGRAMS = {"dry": "dryer", "stress": "rigidstress", "breakup": "breaker"}
-KEYS = {"name", "seeds", "jobs", *PROGRAMS, "vary"}
+KEYS = {"name", "seeds", *PROGRAMS, "vary"}
 STAGE_KEYS = {"scene", "set", "flows", "count"}
 FLOWS = ("elongation", "shear", "uniaxial", "biaxial")
 
@@ -42,7 +41,6 @@ class Plan:
     name: str
     stages: dict          # stage -> {"scene": table, "count": of how many granules a point}
     points: list          # (values, seeds: a number or a list)
-    jobs: int
     units: dict           # stage -> {key: unit}
 
     @property
@@ -176,15 +174,12 @@ def read(path, programs, settings=()):
     units = {stage: scene_text.units(programs / program) for stage, program in PROGRAMS.items() if stage in given}
     histories = {}
     stages = {stage: _stage(stage, given[stage], path, units[stage], histories) for stage in PROGRAMS if stage in given}
-    jobs = given.get("jobs", len(os.sched_getaffinity(0)))
-    if not isinstance(jobs, int) or jobs < 1:
-        raise Fault(f"{path}: jobs: how many runs side by side, 1 or more")
     name = given.get("name", path.stem)
     points = _points(given, path, stages, units)
     for stage in stages:
         names = {point[key]: None for point, _ in points if (key := f"{stage}.scene") in point}
         stages[stage]["scenes"] = {name: _stage(stage, given[stage], path, units[stage], histories, name) for name in names}
-    return Plan(path, name, stages, points, jobs, units), histories
+    return Plan(path, name, stages, points, units), histories
 
 
 def realisation(plan, point, seeds, replicate):

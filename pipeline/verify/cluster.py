@@ -147,7 +147,7 @@ def killed(campaigns, verdicts):
     said = run.communicate()[0]
     failed = [line.rpartition(",")[2] for line in campaigns.table("killed").splitlines() if "exit code" in line]
     verdicts.claim("a task killed with SIGKILL is reported, the others are made", run.returncode == 2 and len(failed) == 1 and "Failed:" in said,
-                   f"exit code {run.returncode}; {(re.findall(r'exit code .*', campaigns.table('killed')) or ['nothing said'])[0]}".replace("|", ""))
+                   f"exit code {run.returncode}; {(re.findall(r'exit code .*', campaigns.table('killed')) or ['nothing said'])[0]}".replace('"', ""))
     verdicts.claim("nothing half-written stays", not campaigns.half_written("killed"), f"{len(campaigns.contents('killed'))} files of 12, each valid with its report")
     same_bits(campaigns, "killed", verdicts, "killed")
 

@@ -108,21 +108,25 @@ class MainJob(Sandbox):
         self.assertNotEqual(self.make(CHECK_CODE="1").returncode, 0)
         self.assertFalse((self.results / "granules.txt").exists())
 
+    def most_at_once(self, wanted, *arguments):
+        shutil.rmtree(self.results, ignore_errors=True)
+        self.runs()
+        self.assertEqual(self.make(*(arguments or ("results/granules.txt",)), AWAIT=str(wanted)).returncode, 0)
+        running, most = 0, 0
+        for line in self.lines():
+            running += line.startswith("dryer") - (line == "end")
+            most = max(most, running)
+        return most
+
     def test_runs_go_side_by_side_and_one_by_one_if_asked(self):
-        def most_at_once(wanted, *arguments):
-            shutil.rmtree(self.results, ignore_errors=True)
-            self.runs()
-            self.assertEqual(self.make("results/granules.txt", *arguments, AWAIT=str(wanted)).returncode, 0)
-            running, most = 0, 0
-            for line in self.lines():
-                running += line.startswith("dryer") - (line == "end")
-                most = max(most, running)
-            return most
 
         cores = min(5, len(os.sched_getaffinity(0)))  # as nproc counts
-        self.assertEqual(most_at_once(1, "-j1"), 1)
-        self.assertEqual(most_at_once(5, "-j5"), 5)
-        self.assertEqual(most_at_once(cores), cores)
+        self.assertEqual(self.most_at_once(1, "results/granules.txt", "-j1"), 1)
+        self.assertEqual(self.most_at_once(5, "results/granules.txt", "-j5"), 5)
+        self.assertEqual(self.most_at_once(cores), cores)
+        (self.root / "my.toml").write_text("seeds = 4\n[dry]\nscene = \"pipeline/scenes/hollow.toml\"\n")
+        self.assertEqual(self.most_at_once(3, "campaign", "CAMPAIGN=my.toml", "-j3"), 3)
+        self.assertEqual(self.most_at_once(1, "campaign", "CAMPAIGN=my.toml", "-j1"), 1)
 
     def test_a_campaign_of_one_s_own_and_on_a_cluster_by_the_words_before_its_programs(self):
         (self.root / "my.toml").write_text("seeds = 2\n[dry]\nscene = \"pipeline/scenes/hollow.toml\"\n")
