@@ -72,17 +72,20 @@ class Campaigns:
         return self.cluster.call(*self.words(name, "-j2"))
 
     def start(self, name):
-        return subprocess.Popen([str(word) for word in self.words(name, "-j4", "CLUSTER=slurm")], env=self.cluster.environment, text=True,
-                                stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        run = subprocess.Popen([str(word) for word in self.words(name, "-j4", "CLUSTER=slurm")], env=self.cluster.environment, text=True,
+                               stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        self.cluster.started.append(run)
+        return run
 
-    def running(self, name):
-        """Processes of programs that write into this folder, children of Slurm's step daemon."""
+    def running(self, name, program="", cpu=0.0):
+        """Processes of programs, or of one, that write into this folder, children of Slurm's step daemon, and that took so many seconds."""
         found = []
         for place in pathlib.Path("/proc").glob("[0-9]*"):
             try:
                 words = (place / "cmdline").read_bytes().split(b"\0")
-                parent = int((place / "stat").read_text().rpartition(")")[2].split()[1])
-                if pathlib.Path(words[0].decode()).name in ("dryer", "rigidstress") and any(str(self.folder / name) in word.decode() for word in words) and \
+                state = (place / "stat").read_text().rpartition(")")[2].split()
+                parent, used = int(state[1]), (int(state[11]) + int(state[12])) / os.sysconf("SC_CLK_TCK")
+                if pathlib.Path(words[0].decode()).name in ((program,) if program else ("dryer", "rigidstress")) and used >= cpu and any(str(self.folder / name) in word.decode() for word in words) and \
                         "slurmstepd" in pathlib.Path(f"/proc/{parent}/comm").read_text():
                     found.append(int(place.name))
             except (OSError, ValueError, UnicodeDecodeError):
@@ -192,8 +195,7 @@ def batch(campaigns, verdicts, name):
     """sbatch.sh, put back into the queue while it runs."""
     cluster = campaigns.cluster
     job = submit(campaigns, f"--ntasks={CPUS}", ROOT / "pipeline/cluster/sbatch.sh", *campaigns.words(name)[3:])
-    until(lambda: campaigns.running(name), "running task")
-    time.sleep(1)  # so that there is something to go on from
+    until(lambda: campaigns.running(name, "dryer", 0.1), "running task with something to go on from")
     cluster.call("scontrol", "requeue", job)
     until(lambda: not campaigns.running(name), "end of the tasks")
     kept = len(list((campaigns.folder / name).rglob("*.checkpoint")))
@@ -207,7 +209,7 @@ def batch(campaigns, verdicts, name):
 
 
 def array(campaigns, verdicts):
-    job = submit(campaigns, "--array=1-3%2", ROOT / "pipeline/cluster/array.sh", campaigns.path, campaigns.folder / "array")
+    job = submit(campaigns, "--array=1-3%2", ROOT / "pipeline/cluster/array.sh", campaigns.path, "-o", campaigns.folder / "array", "--programs", campaigns.programs)
     until(lambda: not campaigns.cluster.jobs("-j", job, "-t", "PD,R,CG,CF"), "end of the array", 900)
     said = campaigns.cluster.call(*campaigns.words("array")).stderr
     verdicts.claim("array.sh: three jobs make all files, make the tables; the bits are those of the local run", made_now(said) == 0 and
@@ -244,6 +246,7 @@ def provenance():
 
 def command_line():
     parser = arguments.parser(__doc__, "where cluster.md goes", metavar="FOLDER", default=ROOT / "pipeline/results/verify")
+    parser.add_argument("what", nargs="*", choices=["campaigns", "tasks"], help="one part alone: campaigns, or tasks that do nothing")
     parser.add_argument("--tasks", type=int, default=1000, help="tasks that do nothing (default: %(default)s)")
     parser.add_argument("--bin", type=pathlib.Path, default=ROOT / "build/release/bin", help="folder of the programs (default: %(default)s)")
     return parser
@@ -254,28 +257,37 @@ def main():
     if missing := slurm.missing():
         print(f"not tried: Debian packages are missing: {', '.join(missing)} (pipeline/packages.sh cluster)", file=sys.stderr)
         return 77
-    verdicts = Verdicts()
+    verdicts, what = Verdicts(), options.what or ("campaigns", "tasks")
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # the daemons end with it
     with tempfile.TemporaryDirectory(prefix="crumble-cluster-") as temporary:
         folder = pathlib.Path(temporary)
         with slurm.Slurm(folder / "slurm", CPUS) as cluster:
-            campaigns = Campaigns(folder, options.bin.resolve(), cluster)
-            verdicts.claim("a local run makes all", campaigns.local("local").returncode == 0, f"{len(campaigns.contents('local'))} files of 12")
-            run = campaigns.start("plain")
-            run.communicate()
-            verdicts.claim("CLUSTER=slurm changes nothing else: the bits are those of the local run", run.returncode == 0 and campaigns.contents("plain") == campaigns.contents("local"),
-                           f"exit code {run.returncode}")
-            for check in (killed, drained, down):
-                check(campaigns, verdicts)
-            batch(campaigns, verdicts, "batch")
-            array(campaigns, verdicts)
-            allocation(campaigns, verdicts)
-            overhead(folder, cluster, options.tasks, verdicts)
-    options.out.mkdir(parents=True, exist_ok=True)
-    text = "\n".join(["# Campaigns on a cluster", "", f"`/usr/bin/python3 pipeline/verify/cluster.py --tasks {options.tasks}`. {provenance()}", "", "| claim | holds | seen |", "|---|---|---|",
-                      *verdicts.lines, ""])
-    (options.out / "cluster.md").write_text(text, encoding="utf-8")
+            if "tasks" in what:
+                overhead(folder, cluster, options.tasks, verdicts)
+            if "campaigns" in what:
+                campaigns_hold(Campaigns(folder, options.bin.resolve(), cluster), verdicts)
+    write(options, verdicts)
     return 1 if verdicts.failed else 0
+
+
+def campaigns_hold(campaigns, verdicts):
+    verdicts.claim("a local run makes all", campaigns.local("local").returncode == 0, f"{len(campaigns.contents('local'))} files of 12")
+    run = campaigns.start("plain")
+    run.communicate()
+    verdicts.claim("CLUSTER=slurm changes nothing else: the bits are those of the local run", run.returncode == 0 and campaigns.contents("plain") == campaigns.contents("local"),
+                   f"exit code {run.returncode}")
+    for check in (killed, drained, down):
+        check(campaigns, verdicts)
+    batch(campaigns, verdicts, "batch")
+    array(campaigns, verdicts)
+    allocation(campaigns, verdicts)
+
+
+def write(options, verdicts):
+    options.out.mkdir(parents=True, exist_ok=True)
+    command = " ".join(["/usr/bin/python3 pipeline/verify/cluster.py", *options.what, f"--tasks {options.tasks}"])
+    text = "\n".join(["# Campaigns on a cluster", "", f"`{command}`. {provenance()}", "", "| claim | holds | seen |", "|---|---|---|", *verdicts.lines, ""])
+    (options.out / "cluster.md").write_text(text, encoding="utf-8")
 
 
 if __name__ == "__main__":

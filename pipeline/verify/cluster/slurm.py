@@ -69,6 +69,7 @@ def until(what, words, seconds=300):
 class Slurm(contextlib.AbstractContextManager):
     def __init__(self, folder, cpus):
         self.folder, self.daemons = pathlib.Path(folder), []
+        self.started = []  # what has to end before the daemons
         for name in ("state", "spool"):
             (self.folder / name).mkdir(parents=True)
         self.folder.parent.chmod(0o711)  # munged wants to be reached by everyone
@@ -98,7 +99,7 @@ class Slurm(contextlib.AbstractContextManager):
 
     def __exit__(self, *_):
         self.call("scancel", "--user", getpass.getuser())
-        for daemon in reversed(self.daemons):
+        for daemon in [*self.started, *reversed(self.daemons)]:
             daemon.terminate()
             try:
                 daemon.wait(30)
