@@ -241,12 +241,12 @@ def overhead(folder, cluster, tasks, verdicts):
 def provenance():
     git = lambda *words: subprocess.run(["git", "-C", ROOT, *words], text=True, capture_output=True).stdout.strip()
     from levels import processor
-    return f"Commit {git('rev-parse', '--short', 'HEAD')}, {datetime.date.today()}, {processor()[0]}, {os.cpu_count()} cores; {subprocess.run(['srun', '--version'], text=True, capture_output=True).stdout.strip()}."
+    return f"Commit {git('rev-parse', '--short', 'HEAD')}, {datetime.date.today()}, {processor()[0]}, {os.cpu_count()} cores; {subprocess.run(['slurmd', '-V'], text=True, capture_output=True, env={'PATH': slurm.PATH}).stdout.strip()}."
 
 
 def command_line():
     parser = arguments.parser(__doc__, "where cluster.md goes", metavar="FOLDER", default=ROOT / "pipeline/results/verify")
-    parser.add_argument("what", nargs="*", choices=["campaigns", "tasks"], help="one part alone: campaigns, or tasks that do nothing")
+    parser.add_argument("--only", choices=["campaigns", "tasks"], help="one part alone: campaigns, or tasks that do nothing")
     parser.add_argument("--tasks", type=int, default=1000, help="tasks that do nothing (default: %(default)s)")
     parser.add_argument("--bin", type=pathlib.Path, default=ROOT / "build/release/bin", help="folder of the programs (default: %(default)s)")
     return parser
@@ -257,14 +257,14 @@ def main():
     if missing := slurm.missing():
         print(f"not tried: Debian packages are missing: {', '.join(missing)} (pipeline/packages.sh cluster)", file=sys.stderr)
         return 77
-    verdicts, what = Verdicts(), options.what or ("campaigns", "tasks")
+    verdicts = Verdicts()
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # the daemons end with it
     with tempfile.TemporaryDirectory(prefix="crumble-cluster-") as temporary:
         folder = pathlib.Path(temporary)
         with slurm.Slurm(folder / "slurm", CPUS) as cluster:
-            if "tasks" in what:
+            if options.only != "campaigns":
                 overhead(folder, cluster, options.tasks, verdicts)
-            if "campaigns" in what:
+            if options.only != "tasks":
                 campaigns_hold(Campaigns(folder, options.bin.resolve(), cluster), verdicts)
     write(options, verdicts)
     return 1 if verdicts.failed else 0
@@ -285,7 +285,7 @@ def campaigns_hold(campaigns, verdicts):
 
 def write(options, verdicts):
     options.out.mkdir(parents=True, exist_ok=True)
-    command = " ".join(["/usr/bin/python3 pipeline/verify/cluster.py", *options.what, f"--tasks {options.tasks}"])
+    command = " ".join(["/usr/bin/python3 pipeline/verify/cluster.py", *([f"--only {options.only}"] if options.only else []), f"--tasks {options.tasks}"])
     text = "\n".join(["# Campaigns on a cluster", "", f"`{command}`. {provenance()}", "", "| claim | holds | seen |", "|---|---|---|", *verdicts.lines, ""])
     (options.out / "cluster.md").write_text(text, encoding="utf-8")
 
