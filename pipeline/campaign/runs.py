@@ -13,6 +13,7 @@ import signal
 import subprocess
 import sys
 import threading
+import time
 import tomllib
 
 import h5py
@@ -106,6 +107,7 @@ class Runs:
                                        errors="replace", start_new_session=True, env={**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"})
             self.running.add(process)
         said = process.communicate()[1]
+        there = process.returncode == 0 and self.appears(run)
         with self.lock:
             self.running.discard(process)
             if self.stopped is not None:
@@ -113,11 +115,19 @@ class Runs:
             self.done += 1
             lines = said.strip().splitlines()
             own = [line for line in lines if not line.startswith(CLUSTER_WORDS)]
-            if process.returncode:
+            if process.returncode or not there:
                 self.path(run, ".json").unlink(missing_ok=True)  # whatever it left is not finished
-                self.failures[run.id] = Failure(run.stage, process.returncode, (own or lines or ["said nothing"])[-1])
+                self.failures[run.id] = Failure(run.stage, process.returncode, (own or lines or ["said nothing" if process.returncode else "ended well and left no file"])[-1])
             else:
                 self.messages.update(own)
+
+    def appears(self, run):
+        """srun ends with 0 where its node went down; and a shared disk may show late what another node wrote."""
+        for _ in range(100 if self.launcher else 1):
+            if all(self.path(run, ending).is_file() for ending in (".h5", ".json")):
+                return True
+            time.sleep(0.1)
+        return False
 
     def stop(self, signum, _=None):
         with self.lock:

@@ -278,6 +278,12 @@ class Running(InAFolder):
         self.assertEqual(len((self.folder / "launches").read_text().split()), 4)
         self.assertEqual({row["failed"] for row in self.table()}, {"", "dry, exit code 1: particle 3 left the droplet"})
 
+    def test_a_run_that_ends_well_without_a_file_has_failed_and_its_granule_goes_no_further(self):
+        launcher = self.write("launch", "#!/bin/bash\necho 'srun: error: Node failure on n1' >&2\n")
+        launcher.chmod(0o755)
+        code, _, _ = self.run_it(PLAIN.replace("3", "1") + "[stress]\nscene = \"stress.toml\"\n", "--launcher", str(launcher))
+        self.assertEqual((code, [row["failed"] for row in self.table()]), (1, ["dry, exit code 0: srun: error: Node failure on n1"]))
+
     def test_the_table_has_units_hashes_and_errors(self):
         self.run_it(self.THREE)
         row = self.table()[0]
