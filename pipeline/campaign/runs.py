@@ -133,7 +133,8 @@ class Runs:
         with self.lock:
             self.stopped = signum
             for process in self.running:
-                process.send_signal(signal.SIGTERM)  # leaves a checkpoint
+                # Leaves a checkpoint. srun hands SIGINT on to its task, and kills it on SIGTERM.
+                process.send_signal(signal.SIGINT if self.launcher else signal.SIGTERM)
 
     def make_all(self, realisations, jobs, say):
         was = {one: signal.signal(one, self.stop) for one in (signal.SIGINT, signal.SIGTERM)}
