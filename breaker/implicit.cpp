@@ -20,6 +20,25 @@ double farthest(const std::vector<Vector3>& x, const std::vector<Vector3>& from)
   return std::sqrt(largest);
 }
 
+// By how much increments change the gap of an open pair that feels surface forces, at most, in the length over which
+// these vary: gap and joining gap together.
+double largest_approach(const Frame& frame, const VectorXd& q, const std::vector<double>& radius,
+                        const SurfaceForceLaws& laws) {
+  double largest = 0;
+  const auto count = static_cast<std::int32_t>(radius.size());
+  for (std::int32_t i = 0; i < count; ++i)
+    for (std::int32_t j = i + 1; j < count; ++j) {
+      const Vector3 D = frame.position[j] - frame.position[i];
+      const double sum = radius[i] + radius[j], reach = sum + laws.range();
+      if (D.squaredNorm() > reach * reach) continue;
+      const double gap = D.norm() - sum, joined = laws(i, j).attraction.joined_gap();
+      if (gap <= 0) continue;
+      const double after = (D + q.segment<3>(6 * j) - q.segment<3>(6 * i)).norm() - sum;
+      largest = std::max(largest, std::abs(after - gap) / (gap + joined));
+    }
+  return largest;
+}
+
 }  // namespace
 
 Implicit::Implicit(const BreakupModel& model, const Protocol& protocol, const std::vector<double>& radius, Frame frame,
@@ -141,6 +160,11 @@ Implicit::Attempt Implicit::attempt(double dt, double time) {
   const double smallest = event_step();
   const double moved = largest_motion() / (4 * tolerance_ * length_);
   if (moved > 1.2) return {false, false, std::max(0.1, 0.9 / moved) * dt};
+  // Nothing else limits a step without a history, the first and those after a contact has come or gone.
+  if (const SurfacePairs* near = network_.surface_pairs()) {
+    const double approach = largest_approach(frame_, increment_, radius_, near->laws()) / (10 * tolerance_);
+    if (approach > 1.2) return {false, false, std::max(0.1, 0.9 / approach) * dt};
+  }
   if (dt > smallest) {
     const double fraction = network_.touch_fraction(increment_, 0.01 * tolerance_);
     if (fraction < 1) return {false, false, std::max(fraction * dt, 0.5 * smallest)};

@@ -110,10 +110,10 @@ TEST(SurfaceForces, BothIntegratorsBreakAChargedTrimerAtTheSameStress) {
   EXPECT_NEAR(critical_stress(fast, ramp) / critical_stress(slow, ramp), 1, 5e-3);
 }
 
-// Two spheres that are let go 2 nm apart in a liquid at rest: when they touch.
+// Two spheres that are let go 2 nm apart in a liquid at rest: when they touch. The explicit integrator is within 0.3 %
+// of itself with four times the step; the implicit one converges to it with its tolerance.
 TEST(SurfaceForces, PairAtRestClosesInTheSameTimeByBothIntegrators) {
-  Agglomerate g = cluster(chain(1));
-  g = cluster({Vector3(0, 0, 0), Vector3(2.02, 0, 0)});
+  const Agglomerate g = cluster({Vector3(0, 0, 0), Vector3(2.02, 0, 0)});
   ASSERT_TRUE(g.state.contacts.empty());
   BreakupModel model = elongation(Rung::fts);
   model.surface_forces = forces(9.85e-21, 0, 100);
@@ -122,13 +122,14 @@ TEST(SurfaceForces, PairAtRestClosesInTheSameTimeByBothIntegrators) {
     while (run.frame().contacts.empty()) run.step(1);
     return run.frame().time;
   };
-  ExplicitEuler slow(model, rest, g.particles.radius, g.state, 0), slower(model, rest, g.particles.radius, g.state, 0, false, 4);
+  ExplicitEuler slow(model, rest, g.particles.radius, g.state, 0);
   const double exact = time_to_touch(slow);
-  std::printf("explicit %.6g us, of four times the step %.6g us\n", 1e6 * exact, 1e6 * time_to_touch(slower));
-  for (const double tolerance : {0.01, 0.005, 0.0025, 0.00125}) {
+  for (const double tolerance : {0.01, 0.0025}) {
     Implicit fast(model, rest, g.particles.radius, g.state, tolerance);
-    const double t = time_to_touch(fast);
-    std::printf("implicit %g: %.6g us, off by %.3g %%, %lld steps\n", tolerance, 1e6 * t, 100 * (t / exact - 1), static_cast<long long>(fast.statistics().steps));
+    const double off = time_to_touch(fast) / exact - 1;
+    std::printf("tolerance %g: %+.2g %%, %lld steps\n", tolerance, 100 * off,
+                static_cast<long long>(fast.statistics().steps));
+    EXPECT_NEAR(off, 0, 3 * tolerance) << tolerance;
   }
 }
 
