@@ -25,8 +25,17 @@ Work brownian_work(const DryingScene& s, const StepTimes& times) {
   return Brownian::expected_work(s.model, s.radius, stages, s.brownian.contact_step, times);
 }
 
+// Of a packed particle in a short step. Surface forces act in the liquid alone, and half of what is packed lies in it.
+double packed_seconds(const DryingScene& s) {
+  const double wet = measured_seconds(s, SampleState::packed);
+  if (!s.is(IntegratorKind::brownian) || !s.model.surface_forces) return wet;
+  DryingScene dry = s;
+  dry.model.surface_forces.reset();
+  return 0.5 * (wet + measured_seconds(dry, SampleState::packed));
+}
+
 Work expected_work(const DryingScene& s) {
-  StepTimes times{measured_seconds(s, SampleState::packed), 0, static_cast<double>(sample_size(s))};
+  StepTimes times{packed_seconds(s), 0, static_cast<double>(sample_size(s))};
   if (s.is(IntegratorKind::inertial) || s.is(IntegratorKind::brownian))
     times.loose = measured_seconds(s, SampleState::loose);
   switch (s.integrator) {
