@@ -58,7 +58,7 @@ IntegratorKind integrator_kind(const Scene& scene, const DryingScene& s) {
 }
 
 // Root mean square displacement of a free particle while its random force stands, in the Debye length at the start: the
-// stability ratio then is that of Fuchs (tests/dryer/surface_passages.cpp).
+// stability ratio then is that of Fuchs within 10 % (tests/dryer/surface_passages.cpp).
 constexpr double share_of_debye_length = 0.25;
 
 // What surface forces ask of the other keys.
