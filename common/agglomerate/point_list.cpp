@@ -2,10 +2,7 @@
 
 #include <charconv>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <optional>
-#include <system_error>
 
 #include "common/text/csv.hpp"
 
@@ -179,12 +176,8 @@ PointList read_points(const std::string& file) {
   if (!is_xyz && ending != ".csv") {
     throw PointListOpenError(file + ": expected a name that ends with .csv, .xyz or .extxyz");
   }
-  std::error_code problem;
-  if (std::filesystem::is_directory(file, problem)) throw PointListOpenError(file + ": is a directory");
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw PointListOpenError(file + ": cannot be opened for reading");
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  return is_xyz ? parse_xyz(text, file) : parse_csv(text, file);
+  const std::string all = whole_file(file);
+  return is_xyz ? parse_xyz(all, file) : parse_csv(all, file);
 }
 
 }  // namespace crumble

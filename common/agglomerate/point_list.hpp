@@ -14,9 +14,7 @@ namespace crumble {
 using PointListError = text::TextError;
 
 // The file cannot be read at all.
-struct PointListOpenError : PointListError {
-  using text::TextError::TextError;
-};
+using PointListOpenError = text::UnreadableError;
 
 struct PointList {
   std::string file;               // as messages call it

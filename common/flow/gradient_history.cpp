@@ -6,8 +6,6 @@
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 #include <string_view>
 
 #include "common/io/errors.hpp"
@@ -103,12 +101,10 @@ double rate_of(const Eigen::Matrix3d& gradient) {
   return std::sqrt(2 * E.squaredNorm());
 }
 
-GradientHistory GradientHistory::read(const std::string& file, double largest_step) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw InputError(file + ": cannot be opened");
-  std::stringstream text;
-  text << in.rdbuf();
-  return parse(text.str(), file, largest_step);
+GradientHistory GradientHistory::read(const std::string& file, double largest_step) try {
+  return parse(text::whole_file(file), file, largest_step);
+} catch (const text::UnreadableError& error) {
+  throw InputError(error.what());
 }
 
 GradientHistory GradientHistory::parse(const std::string& text, const std::string& name, double largest_step) try {

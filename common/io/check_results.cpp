@@ -116,13 +116,14 @@ void events(const Context& context) {
   for (std::size_t e = 0; e + 1 < offsets.size(); ++e) {
     std::int64_t sum = 0;
     for (auto k = static_cast<std::size_t>(offsets[e]); k < static_cast<std::size_t>(offsets[e + 1]); ++k) {
-      sum += sizes[k];
       if (k > static_cast<std::size_t>(offsets[e]) && sizes[k] > sizes[k - 1])
         return context.add(row(sizes_path, k), fmt::format("at most the {} before", sizes[k - 1]),
                            std::to_string(sizes[k]));
-      if (sum > n)
+      // Any number from 1 on may stand here, and the sum of two large ones is none.
+      if (sizes[k] > n - sum)
         return context.add(row(sizes_path, k), fmt::format("no more than {} particles together", n),
-                           std::to_string(sum));
+                           std::to_string(static_cast<std::uint64_t>(sum) + static_cast<std::uint64_t>(sizes[k])));
+      sum += sizes[k];
     }
   }
 }

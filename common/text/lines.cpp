@@ -2,10 +2,26 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <system_error>
 
 #include "common/text/words.hpp"
 
 namespace crumble::text {
+
+std::string whole_file(const std::string& file) {
+  namespace fs = std::filesystem;
+  std::error_code problem;
+  const fs::file_type type = fs::status(file, problem).type();
+  if (type == fs::file_type::directory) throw UnreadableError(file + ": is a directory");
+  if (type == fs::file_type::character || type == fs::file_type::block)
+    throw UnreadableError(file + ": is a device, not a file");
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw UnreadableError(file + ": cannot be opened for reading");
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
 
 Lines::Lines(std::string_view text, std::string file) : rest_(text), file_(std::move(file)) {
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))

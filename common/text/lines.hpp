@@ -13,6 +13,14 @@ struct TextError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// The file cannot be read at all.
+struct UnreadableError : TextError {
+  using TextError::TextError;
+};
+
+// All of a file. Throws UnreadableError: a device is not read, as it may never end.
+std::string whole_file(const std::string& file);
+
 class Lines {
  public:
   // file: as messages call it. Throws TextError if the text is not of single bytes (UTF-16, a binary file). A byte

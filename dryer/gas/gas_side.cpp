@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "common/io/plausible.hpp"
 #include "common/text/csv.hpp"
@@ -158,11 +156,11 @@ GasHistory history_in(const Scene& scene) {
       throw scene.error(key, fmt::format("the gas is already given by gas.history ({}); remove one of the two",
                                          scene.where("gas.history")));
   const std::string file = gas_files(scene).front().name;
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw scene.error("gas.history", "the file " + file + " cannot be opened");
-  std::stringstream text;
-  text << in.rdbuf();
-  return read_gas_history(text.str(), file, scene.real("gas.pressure"));
+  try {
+    return read_gas_history(text::whole_file(file), file, scene.real("gas.pressure"));
+  } catch (const text::UnreadableError& error) {
+    throw scene.error("gas.history", std::string("the file ") + error.what());
+  }
 }
 
 double initial_temperature(const Scene& scene, const GasHistory& gas, double R0) {

@@ -1,8 +1,10 @@
 #include "common/agglomerate/point_list.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <string>
 
 namespace crumble {
@@ -169,6 +171,12 @@ TEST(PointList, FilesThatCannotBeReadAreNamed) {
     return "accepted";
   };
   EXPECT_EQ(message("no_such.csv"), "no_such.csv: cannot be opened for reading");
+  // It never ends.
+  const std::string device =
+      (std::filesystem::temp_directory_path() / ("crumble-" + std::to_string(getpid()) + ".csv"));
+  std::filesystem::create_symlink("/dev/zero", device);
+  EXPECT_EQ(message(device), device + ": is a device, not a file");
+  std::filesystem::remove(device);
   EXPECT_EQ(message("points.txt"), "points.txt: expected a name that ends with .csv, .xyz or .extxyz");
 }
 

@@ -1,5 +1,5 @@
 // Histories of the velocity gradient.
-#include "rigidstress/history.hpp"
+#include "common/flow/gradient_history.hpp"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,6 @@
 #include "tests/fuzz/harness.hpp"
 
 namespace crumble::fuzz {
-
-using rigidstress::GradientHistory;
 
 std::string history(std::string_view text) {
   return outcome([&] {
