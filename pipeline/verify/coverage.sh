@@ -1,6 +1,6 @@
 #!/bin/bash
 # Lines of common, dryer, breaker and rigidstress that the tests run: builds everything with gcov's counters at -O1, runs the tests and
-# prints the share of each part. coverage.sh REGEX runs the tests of that name alone. An hour of one core. Ends with 77 where gcovr is missing,
+# prints the share of each part. coverage.sh REGEX runs the tests of that name alone. Ends with 77 where gcovr is missing,
 # with 1 where a part is below 90 %.
 set -euo pipefail
 [[ ${1:-} != -h && ${1:-} != --help ]] || { sed -n '2,/^[^#]/s/^# //p' "$0"; exit 0; }
