@@ -60,35 +60,73 @@ def strengths(plan, rows, quantity, out):
     return True
 
 
-def responses(plan, rows, out):
-    """Means with intervals over each key that has numbers; points that differ in other keys share a panel."""
-    keys = [key for key in plan.varied if len({point[key] for point, _ in plan.points if isinstance(point.get(key), (int, float))}) > 1]
-    quantities = [quantity for quantity in present(rows) if not quantity.name.startswith("n_max")]
-    if not keys or not quantities:
-        return False
-    figure, panels = pyplot.subplots(len(quantities), len(keys), figsize=(3.4 * len(keys), 2.1 * len(quantities)), squeeze=False, sharex="col",
-                                     layout="constrained")
-    table = records(plan, rows)
-    for column, key in enumerate(keys):
-        heading = f"{key} [{plan.unit(key) or '1'}]"
-        places = sorted({one[heading] for one in table if isinstance(one[heading], (int, float))})
-        for line, quantity in enumerate(quantities):
-            axes = panels[line][column]
-            for one in table:
-                if one["quantity"] != quantity.name or one["mean"] is None or not isinstance(one[heading], (int, float)):
-                    continue
-                if one["granules"] == 2:
-                    axes.plot([one[heading]] * 2, [one["lowest"], one["highest"]], "o-", color=LINES[2][0], markersize=3, fillstyle="none", linewidth=0.6)
-                elif one["mean_low"] is None:
-                    axes.plot(one[heading], one["mean"], "o", color=LINES[2][0], markersize=3, fillstyle="none")
-                else:
-                    axes.errorbar(one[heading], one["mean"], [[max(0, one["mean"] - one["mean_low"])], [max(0, one["mean_high"] - one["mean"])]], fmt="o",
-                                  color=LINES[2][0], capsize=2, markersize=3)
-            axes.set(ylabel=f"{quantity.name.replace('_', ' ')}{f', {quantity.unit}' if quantity.unit != '1' else ''}", ylim=(0, None))
-            axes.yaxis.label.set_fontsize(7)
+def _heading(plan, key):
+    return f"{key} [{plan.unit(key) or '1'}]"
+
+
+def _telling(plan, keys):
+    """Those of the keys that tell points apart best: with several values, or else set at some points and not at others."""
+    values = {key: {point.get(key) for point, _ in plan.points} for key in keys}
+    return ([key for key in keys if len(values[key] - {None}) > 1] or [key for key in keys if len(values[key]) > 1])
+
+
+def _choice(plan, row, keys):
+    return ", ".join(f"{key.split('.')[-1]} = {row[_heading(plan, key)]:g} {plan.unit(key) or ''}".strip() if isinstance(row[_heading(plan, key)], (int, float))
+                     else f"{key.split('.')[-1]} = {row[_heading(plan, key)]}" for key in keys if row[_heading(plan, key)] is not None) or "without"
+
+
+def _draw_means(axes, places, rows, colour, line, name):
+    known = [(x, one) for x, one in zip(places, rows) if one["mean"] is not None]
+    axes.plot([x for x, _ in known], [one["mean"] for _, one in known], line, color=colour, linewidth=0.8, label=name)
+    for x, one in known:
+        if one["granules"] == 2:
+            axes.plot([x] * 2, [one["lowest"], one["highest"]], "o-", color=colour, markersize=3, fillstyle="none", linewidth=0.6)
+        elif one["mean_low"] is None:
+            axes.plot(x, one["mean"], "o", color=colour, markersize=3, fillstyle="none")
+        else:
+            axes.errorbar(x, one["mean"], [[max(0, one["mean"] - one["mean_low"])], [max(0, one["mean_high"] - one["mean"])]], fmt="o",
+                          color=colour, capsize=2, markersize=3)
+
+
+def _column(plan, table, key, panels, quantities):
+    """A panel for each quantity over this key, a line for each choice of the others; without a key the choices stand side by side."""
+    others = _telling(plan, [one for one in plan.varied if one != key])
+    choices = list(dict.fromkeys(_choice(plan, one, others) for one in table))
+    for axes, quantity in zip(panels, quantities):
+        of = [one for one in table if one["quantity"] == quantity.name]
+        if key is None:
+            _draw_means(axes, [choices.index(_choice(plan, one, others)) for one in of], of, LINES[2][0], "none", None)
+            axes.set_xticks(range(len(choices)), [choice.replace(", ", "\n") for choice in choices], fontsize=6)
+            axes.set_xlim(-0.5, len(choices) - 0.5)
+        else:
+            for number, choice in enumerate(choices):
+                mine = sorted((one for one in of if _choice(plan, one, others) == choice and isinstance(one[_heading(plan, key)], (int, float))),
+                              key=lambda one: one[_heading(plan, key)])
+                colour, line = LINES[number % len(LINES)] if len(choices) > 1 else (LINES[2][0], "none")
+                if mine:
+                    _draw_means(axes, [one[_heading(plan, key)] for one in mine], mine, colour, line if len(choices) <= MOST_CURVES else "none", choice)
+            places = sorted({one[_heading(plan, key)] for one in table if isinstance(one[_heading(plan, key)], (int, float))})
             if places[0] > 0 and places[-1] > 5 * places[0]:
                 axes.set_xscale("log")
-        panels[-1][column].set_xlabel(f"{key.split('.', 1)[1]}{f', {plan.unit(key)}' if plan.unit(key) else ''}")
+        axes.set(ylabel=f"{quantity.name.replace('_', ' ')}{f', {quantity.unit}' if quantity.unit != '1' else ''}", ylim=(0, None))
+        axes.yaxis.label.set_fontsize(7)
+    if key is not None:
+        if 1 < len(choices) <= MOST_CURVES:
+            panels[0].legend(fontsize=6)
+        panels[-1].set_xlabel(f"{key.split('.', 1)[1]}{f', {plan.unit(key)}' if plan.unit(key) else ''}")
+
+
+def responses(plan, rows, out):
+    """Means with intervals over each key that has several numbers; without such a key point beside point."""
+    keys = [key for key in plan.varied if len({point[key] for point, _ in plan.points if isinstance(point.get(key), (int, float))}) > 1]
+    quantities = [quantity for quantity in present(rows) if not quantity.name.startswith("n_max")]
+    if len(plan.points) < 2 or not quantities:
+        return False
+    figure, panels = pyplot.subplots(len(quantities), max(1, len(keys)), figsize=(3.4 * max(1, len(keys)), 2.1 * len(quantities)), squeeze=False, sharex="col",
+                                     layout="constrained")
+    table = records(plan, rows)
+    for column, key in enumerate(keys or [None]):
+        _column(plan, table, key, panels[:, column], quantities)
     figure.suptitle("filled: mean, bar: its 95 % interval by bootstrap; open: a mean of too few granules for one, or two granules", fontsize=7)
     save(figure, out)
     return True

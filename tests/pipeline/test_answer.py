@@ -40,7 +40,7 @@ class Answers(InAFolder):
         self.assertIn("blood (0.0035 Pa s)", told)
         self.assertIn("as in: a device of the worst", told)
         self.assertIn("Into what: 3 pieces on average of 5 breakups; the largest has 60 % of the mass", told)
-        self.assertEqual((self.folder / "out/strength.md").read_text(), told.split("10 of 20")[0])
+        self.assertTrue(told.startswith((self.folder / "out/strength.md").read_text()), told)
 
     def test_where_eddies_are_smaller_than_the_granule_the_answer_is_marked(self):
         # Stresses of thousands of Pa in a thin liquid: eddies of some 20 nm beside granules of 1 um; in a thick one they are larger.
