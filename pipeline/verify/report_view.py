@@ -125,7 +125,8 @@ def click(browser, what):
 def clicks(browser, claim, page):
     """A click tells the numbers of what is there: of a particle, and of a contact where there was nothing without contacts."""
     browser.js("document.getElementById('reset').click(); document.getElementById('canvas').scrollIntoView(); window.before = null")
-    for name, value, event in (("find", "", "change"), ("bonds", False, "change"), ("size", 100, "input")):
+    last = browser.js("document.getElementById('frame').max")  # where there are contacts: a drying begins without any
+    for name, value, event in (("frame", last, "input"), ("find", "", "change"), ("bonds", False, "change"), ("size", 100, "input")):
         set_value(browser, name, value, event)
     settled(browser)
     said = click(browser, browser.js(MIDDLE))
