@@ -260,24 +260,8 @@ void Dataset::transfer(bool writing, Id memory_type, std::uint64_t first, std::u
 }
 
 template <class T>
-std::vector<T> Dataset::read() const {
-  const Shape size = shape();
-  return read_rows<T>(0, size.empty() ? 1 : size[0]);
-}
-
-template <class T>
 std::vector<T> Dataset::read_rows(std::uint64_t first, std::uint64_t count) const {
-  Shape size = shape();
-  if (!is_stored())
-    throw ContentError(
-        fmt::format("{}: declares {} but the file does not hold that much", place(""), shape_text(size)));
-  if (!size.empty()) {
-    if (first > size[0] || count > size[0] - first)
-      throw ContentError(
-          fmt::format("{}: rows {} to {} do not exist, it has {}", place(""), first, first + count, size[0]));
-    size[0] = count;
-  }
-  std::vector<T> values(element_count(size));
+  std::vector<T> values(element_count(shape_of_rows(first, count)));
   if (!values.empty()) transfer(false, native(type_of<T>()), first, count, values.data());
   return values;
 }
@@ -319,7 +303,6 @@ void Dataset::resize_rows(std::uint64_t rows) {
 #define CRUMBLE_HDF5_TYPE(T)                                                          \
   template std::vector<T> Object::attribute<T>(std::string_view) const;               \
   template void Object::set_attribute<T>(std::string_view, std::span<const T>, bool); \
-  template std::vector<T> Dataset::read<T>() const;                                   \
   template std::vector<T> Dataset::read_rows<T>(std::uint64_t, std::uint64_t) const;  \
   template void Dataset::write<T>(std::span<const T>);                                \
   template void Dataset::append_rows<T>(std::uint64_t, std::span<const T>);

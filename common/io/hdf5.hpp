@@ -83,7 +83,10 @@ class Dataset : public Object {
   // False if the declared size cannot be in the file: such a dataset must not be read (memory).
   bool is_stored() const;
   template <class T>
-  std::vector<T> read() const;
+  std::vector<T> read() const {
+    const Shape size = shape();
+    return read_rows<T>(0, size.empty() ? 1 : size[0]);
+  }
   template <class T>
   std::vector<T> read_rows(std::uint64_t first, std::uint64_t count) const;  // along the first dimension
   std::string read_text() const;
@@ -94,6 +97,7 @@ class Dataset : public Object {
   void resize_rows(std::uint64_t rows);
 
  private:
+  Shape shape_of_rows(std::uint64_t first, std::uint64_t count) const;  // ContentError: they are not there
   void transfer(bool writing, Id memory_type, std::uint64_t first, std::uint64_t count, void* data) const;
 };
 

@@ -1,4 +1,4 @@
-// What needs no library: names for messages, sizes, and identifiers that close themselves.
+// What needs no library: names for messages, sizes, which rows there are, and identifiers that close themselves.
 #include <fmt/format.h>
 
 #include "common/io/hdf5.hpp"
@@ -57,6 +57,20 @@ std::string Object::place(std::string_view name) const {
   if (name.empty()) return file_ + ": " + (path_.empty() ? "/" : path_);
   const std::string separator = name.front() == '/' || name.front() == '@' ? "" : "/";
   return fmt::format("{}: {}{}{}", file_, path_, separator, name);
+}
+
+Shape Dataset::shape_of_rows(std::uint64_t first, std::uint64_t count) const {
+  Shape size = shape();
+  if (!is_stored())
+    throw ContentError(
+        fmt::format("{}: declares {} but the file does not hold that much", place(""), shape_text(size)));
+  if (!size.empty()) {
+    if (first > size[0] || count > size[0] - first)
+      throw ContentError(
+          fmt::format("{}: rows {} to {} do not exist, it has {}", place(""), first, first + count, size[0]));
+    size[0] = count;
+  }
+  return size;
 }
 
 }  // namespace crumble::hdf5

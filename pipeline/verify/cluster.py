@@ -135,6 +135,10 @@ def made_now(text):
     return int(found[1]) if (found := re.search(r"(\d+) runs made now", text)) else None
 
 
+def nothing_half_written(campaigns, name, verdicts):
+    verdicts.claim("nothing half-written stays", not campaigns.half_written(name), f"{len(campaigns.contents(name))} files of 12, each valid with its report")
+
+
 def same_bits(campaigns, name, verdicts, how):
     again = campaigns.start(name)
     said = again.communicate()[0]
@@ -151,7 +155,7 @@ def killed(campaigns, verdicts):
     failed = [line.rpartition(",")[2] for line in campaigns.table("killed").splitlines() if "exit code" in line]
     verdicts.claim("a task killed with SIGKILL is reported, the others are made", run.returncode == 2 and len(failed) == 1 and "Failed:" in said,
                    f"exit code {run.returncode}; {(re.findall(r'exit code .*', campaigns.table('killed')) or ['nothing said'])[0]}".replace('"', ""))
-    verdicts.claim("nothing half-written stays", not campaigns.half_written("killed"), f"{len(campaigns.contents('killed'))} files of 12, each valid with its report")
+    nothing_half_written(campaigns, "killed", verdicts)
     same_bits(campaigns, "killed", verdicts, "killed")
 
 
@@ -167,7 +171,7 @@ def drained(campaigns, verdicts):
     until(lambda: not cluster.jobs(), "empty queue")
     verdicts.claim("a drained node ends what it runs and takes nothing new; make stopped by SIGTERM leaves no job in the queue", waiting > 0 and run.returncode != 0,
                    f"{waiting} jobs waited; make: {(re.findall(r'Error.*|Terminated.*', said) or ['?'])[-1]}")
-    verdicts.claim("nothing half-written stays", not campaigns.half_written("drained"), f"{len(campaigns.contents('drained'))} files of 12, each valid with its report")
+    nothing_half_written(campaigns, "drained", verdicts)
     cluster.state("resume")
     same_bits(campaigns, "drained", verdicts, "drained")
 
@@ -182,7 +186,7 @@ def down(campaigns, verdicts):
     run.communicate()
     words = re.findall(r"exit code [^,\n]*", campaigns.table("down"))
     verdicts.claim("a node that goes down with its tasks is reported", run.returncode == 2 and bool(words), f"exit code {run.returncode}; {len(words)} failed: {words[:1]}")
-    verdicts.claim("nothing half-written stays", not campaigns.half_written("down"), f"{len(campaigns.contents('down'))} files of 12, each valid with its report")
+    nothing_half_written(campaigns, "down", verdicts)
     same_bits(campaigns, "down", verdicts, "down")
 
 

@@ -2,11 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 
 #include "breaker/breakup_checkpoint.hpp"
+#include "tests/breaker/interrupted.hpp"
 #include "tests/breaker/samples.hpp"
-#include "tests/temporary_folder.hpp"
 
 namespace crumble::breaker {
 namespace {
@@ -144,37 +143,11 @@ TEST_P(HistoryRestart, ContinuesToTheSameBits) {
   scene.until_stable = true;
   if (GetParam()) scene.integrator = IntegratorKind::explicit_euler;
   BreakupRun whole(scene, start, 1);
-  int steps = 0, broken = 0;
-  for (; !whole.finished(); ++steps) {
-    whole.step();
-    if (!broken && whole.breakup().severed) broken = steps + 1;
-  }
-  ASSERT_GT(broken, 0);
+  const Whole when = to_the_end(whole);
+  ASSERT_GT(when.broken, 0);
   EXPECT_EQ(whole.time(), scene.protocol.end());
   EXPECT_EQ(whole.fraction(), 1);
-  const test::Folder folder;
-  const std::string output = folder.file("out.h5");
-  for (const int stop : {broken / 2 + 1, broken + 1, (broken + steps) / 2}) {
-    BreakupRun first(scene, start, 1);
-    for (int k = 0; k < stop; ++k) first.step();
-    const CheckpointOwner owner{"breaker", "1", "scene"};
-    Progression progression;
-    const OutputCheckpoint checkpoint(output, owner);
-    checkpoint.write(checkpoint.collect([&](SavedFields& f) {
-      FrameLog::Mark().fields(f.in("frames"));
-      save_breakup(f, progression, {}, first);
-    }));
-    const OutputCheckpoint found(output, owner);
-    SavedBreakup saved = saved_breakup(found);
-    BreakupRun second(scene, start, 1);
-    resume(second, found, std::move(saved.run));
-    std::filesystem::remove(found.path());
-    while (!second.finished()) second.step();
-    EXPECT_EQ(whole.laboratory().position, second.laboratory().position);
-    EXPECT_EQ(whole.statistics().steps, second.statistics().steps);
-    EXPECT_EQ(whole.breakup().severed, second.breakup().severed);
-    EXPECT_EQ(whole.breakup().fragments, second.breakup().fragments);
-  }
+  expect_to_go_on_to_the_same_bits(scene, start, whole, when);
 }
 
 INSTANTIATE_TEST_SUITE_P(Integrators, HistoryRestart, ::testing::Bool(),
