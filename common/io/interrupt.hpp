@@ -1,4 +1,5 @@
-// SIGINT (Ctrl-C) and SIGTERM ask a run to save its state and stop; a second one ends it at once.
+// SIGINT (Ctrl-C) and SIGTERM ask a run to save its state and stop. Those that come within a second are one request: a
+// scheduler and the command that it runs may both send one. A later one ends it at once.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +10,7 @@ namespace crumble {
 
 // From the first signal on a program has half a second to come to a place where it asks for it, and to leave. After
 // that, deep in whatever library it may be, the process is ended: a thread that only waits for this does what
-// AtSuddenEnd asks for, says what is kept, and exits with 128 + signal. A second signal exits at once.
+// AtSuddenEnd asks for, says what is kept, and exits with 128 + signal.
 void watch_for_interrupts(const std::string& program = "");
 
 // The body of the program is over: nothing ends it suddenly any more.

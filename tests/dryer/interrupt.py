@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import time
 
 import numpy
 
@@ -47,6 +48,16 @@ with tempfile.TemporaryDirectory() as folder:
     refused = subprocess.run(command(cut, "--restart"), capture_output=True, text=True)
     assert refused.returncode == 2 and "there is no " in refused.stderr, refused
     same(whole, cut)
+
+    # Two signals at once, as from a scheduler and from the command that it runs, are one request to keep the state.
+    both = os.path.join(folder, "both.h5")
+    process = subprocess.Popen(command(both), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    time.sleep(0.15 * duration)
+    process.send_signal(signal.SIGTERM)
+    process.send_signal(signal.SIGINT)
+    assert process.wait() in (130, 143) and os.path.exists(both + ".checkpoint"), process.returncode
+    subprocess.run(command(both), check=True, stdout=subprocess.DEVNULL)
+    same(whole, both)
 
     two = os.path.join(folder, "two.h5")
     subprocess.run(command(two, "--threads", "2"), check=True, stdout=subprocess.DEVNULL)

@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <string>
+#include <thread>
 
 #include "common/io/errors.hpp"
 #include "common/io/interrupt.hpp"
@@ -83,10 +85,26 @@ TEST(Interrupt, a_second_signal_ends_the_program_at_once) {
   EXPECT_EXIT(
       {
         watch_for_interrupts();
+        const AtSuddenEnd never_done([]() -> std::string {
+          for (;;) std::this_thread::sleep_for(std::chrono::hours(1));
+        });
         std::raise(SIGINT);
-        std::raise(SIGINT);
+        std::this_thread::sleep_for(std::chrono::milliseconds(1200));
+        std::raise(SIGTERM);
       },
-      ::testing::ExitedWithCode(130), "");
+      ::testing::ExitedWithCode(143), "");
+}
+
+// A scheduler and the command that it runs may both send one.
+TEST(Interrupt, signals_that_come_together_are_one_request) {
+  int after = -1;
+  run([&] {
+    std::raise(SIGTERM);
+    std::raise(SIGINT);
+    after = interrupt_signal();
+    return 0;
+  });
+  EXPECT_EQ(after, SIGTERM);
 }
 
 TEST(Progress, time_left_follows_the_recent_speed) {
